@@ -115,13 +115,15 @@ Measured measured_at(const CertifiedTable& table, const CertifiedColumn& column,
                     row < place.printed.size() ? place.printed[row] : text::shortest(*place.values[row]);
                 return {{.name = place.name, .value = *place.values[row], .unit = place.unit},
                         "the result \"" + column.result + "\" was measured at \"" + place.name + "\" = " + shown + " " +
-                            place.unit};
+                            place.unit,
+                        true};
             }
         }
     }
     const CertifiedValue& value = column.values[row];
     return {{.name = column.result, .value = value.value, .unit = column.unit},
-            "the result \"" + column.result + "\" is " + value.printed_value + " " + column.unit};
+            "the result \"" + column.result + "\" is " + value.printed_value + " " + column.unit,
+            false};
 }
 
 bool is_nominal_of(double claimed, double value) {
@@ -139,6 +141,15 @@ bool is_beyond(double value, double low, double high) {
     // An item whose nominal value is the end of the range may measure a little more.
     const double little = k_a_little * (high - low);
     return value > high + little || value < low - little;
+}
+
+std::string action_of_range(const Measured& measured) {
+    return measured.is_place
+               ? "Hold the range against the result (\"of\": \"value\"), or state the true parameter."
+               : "Where the result is an error, a deviation, a correction or a hysteresis, state its role in the "
+                 "outputs "
+                 "of the job, and at least one point (\"points\"): it is then held against the place where it was "
+                 "measured. Else hold the range against the result (\"of\": \"value\"), or state the true parameter.";
 }
 
 std::optional<Finding> capability_taken_elsewhere(const ScopeEntry& entry, std::size_t i,
@@ -170,10 +181,12 @@ std::optional<Finding> capability_taken_elsewhere(const ScopeEntry& entry, std::
         .what = "the capability of \"" + entry.id + "\" is taken at \"" + held.name +
                 "\" = " + text::shortest(held.value) + " " + held.unit + ", and " + measured.in_words,
         .action =
-            "Where the result is an error, a deviation, a correction or a hysteresis, state its role in the "
-            "outputs of the job (\"role\": \"error\" or \"deviation\"), and at least one point (\"points\"): "
-            "it is then held against the place where it was measured. Else take the capability at the result "
-            "(\"of\": \"value\"), or state the true parameter."};
+            measured.is_place
+                ? "Take the capability at the result (\"of\": \"value\"), or state the true parameter."
+                : "Where the result is an error, a deviation, a correction or a hysteresis, state its role in the "
+                  "outputs of the job (\"role\": \"error\" or \"deviation\"), and at least one point "
+                  "(\"points\"): it is then held against the place where it was measured. Else take the "
+                  "capability at the result (\"of\": \"value\"), or state the true parameter."};
 }
 
 }  // namespace gumcert::certificate

@@ -32,7 +32,8 @@ struct HeldAgainst {
 
 /// What was measured where a result stands.
 struct Measured : HeldAgainst {
-    std::string in_words;  ///< "the result "l" is 50000838 nm", "the result "E" was measured at "V_s" = 10.0 mV"
+    std::string in_words;   ///< "the result "l" is 50000838 nm", "the result "E" was measured at "V_s" = 10.0 mV"
+    bool is_place = false;  ///< where an error was measured, and not the result itself
 };
 /// The result itself. Of one whose column is an error, a deviation or a correction by its role, what its row has of the
 /// kind of a scope: the nominal value, else the setting, the reference, the indication or the measured value, in this
@@ -50,6 +51,10 @@ struct Measured : HeldAgainst {
 /// Whether what was measured lies beyond a range that its nominal value keeps. What is measured may lie a little beyond its
 /// nominal value at the end of a range: a hundredth of the range.
 [[nodiscard]] bool is_beyond(double value, double low, double high);
+
+/// What to do where a range is held against a number beyond which was measured. A result whose place was found has its role
+/// and its point.
+[[nodiscard]] std::string action_of_range(const Measured& measured);
 
 /// Tells of a capability that is taken at another number than what was measured (X12): critical where that is the larger
 /// one, unless the capability is the same there.

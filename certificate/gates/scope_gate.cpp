@@ -159,13 +159,8 @@ void ranges(FindingList& found, const Certificate& certificate, const ScopeEntry
                  .what = "the range of \"" + entry.id + "\" is held against the parameter \"" + parameter.name +
                          "\" = " + text::shortest(parameter.value) + " " + parameter.unit + ", and " +
                          measured.in_words,
-                 .action =
-                     beyond ? "Where the result is an error, a deviation, a correction or a hysteresis, state its role "
-                              "in the outputs of "
-                              "the job, and at least one point (\"points\"): it is then held against the place where "
-                              "it was measured. "
-                              "Else hold the range against the result (\"of\": \"value\"), or state the true parameter."
-                            : "See whether the parameter is the nominal value of what was measured."});
+                 .action = beyond ? action_of_range(measured)
+                                  : "See whether the parameter is the nominal value of what was measured."});
         }
         found.add_gravest(of_points);
     }

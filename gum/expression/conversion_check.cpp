@@ -1,5 +1,6 @@
 #include "gum/expression/conversion_check.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <utility>
@@ -59,6 +60,10 @@ private:
             case Operation::quantity:
                 return of_name_(node.name);
             case Operation::negate:
+                // Of a number the sign counts, as that of an exponent; of everything else it is left out.
+                return is_literal(node.left) && at(node.left)
+                           ? Product(WrittenProduct{.factor = -at(node.left)->factor, .size = at(node.left)->size})
+                           : at(node.left);
             case Operation::absolute:
                 return at(node.left);
             case Operation::multiply:
@@ -89,9 +94,23 @@ private:
         if (!left || !right) {
             return std::nullopt;
         }
-        return node.operation == Operation::multiply
-                   ? WrittenProduct{.factor = left->factor * right->factor, .size = left->size * right->size}
-                   : WrittenProduct{.factor = left->factor / right->factor, .size = left->size / right->size};
+        const bool multiplies = node.operation == Operation::multiply;
+        WrittenProduct product{.factor = multiplies ? left->factor * right->factor : left->factor / right->factor,
+                               .size = multiplies ? left->size * right->size : left->size / right->size,
+                               .terms = multiplies ? left->terms * right->terms : left->terms};
+        // A sum that is divided by the number of its terms is a mean.
+        if (is_share(multiplies ? 1.0 / right->factor : right->factor, left->terms)) {
+            product.factor = left->factor;
+            product.terms = 1.0;
+        } else if (multiplies && is_share(1.0 / left->factor, right->terms)) {
+            product.factor = right->factor;
+            product.terms = 1.0;
+        }
+        return product;
+    }
+
+    [[nodiscard]] static bool is_share(double divisor, double terms) {
+        return terms > 1.0 && std::fabs(std::fabs(divisor) - terms) <= 1e-9 * terms;
     }
 
     [[nodiscard]] Product of_power(const SyntaxNode& node) const {
@@ -101,25 +120,45 @@ private:
         if (!is_literal(node.right) || !at(node.right)) {
             return at(node.left)->size == 1.0 ? Product(WrittenProduct{}) : std::nullopt;
         }
-        const double sign =
-            tree_.nodes[static_cast<std::size_t>(node.right)].operation == Operation::negate ? -1.0 : 1.0;
-        const double exponent = sign * at(node.right)->factor;
-        return WrittenProduct{.factor = std::pow(std::fabs(at(node.left)->factor), exponent),
+        const double exponent = at(node.right)->factor;
+        const double factor = at(node.left)->factor;
+        return WrittenProduct{.factor = std::pow(is_literal(node.left) ? factor : std::fabs(factor), exponent),
                               .size = std::pow(at(node.left)->size, exponent)};
+    }
+
+    [[nodiscard]] static bool is_same(double a, double b) {
+        return std::fabs(std::fabs(a) - std::fabs(b)) <= 1e-9 * std::fabs(a);
     }
 
     /// A sum is not multiplied by a number unless its terms are, by the same one. Terms in different units are none of a spreadsheet.
     [[nodiscard]] Product of_sum(const SyntaxNode& node) const {
-        if (is_literal(node.left) || is_literal(node.right)) {
-            const std::int32_t other = is_literal(node.left) ? node.right : node.left;
-            return at(other) ? Product(WrittenProduct{.size = at(other)->size}) : std::nullopt;
-        }
         const Product &left = at(node.left), &right = at(node.right);
+        if (is_literal(node.left) && is_literal(node.right)) {
+            return WrittenProduct{};
+        }
+        if (is_literal(node.left) || is_literal(node.right)) {
+            const Product &number = is_literal(node.left) ? left : right, &other = is_literal(node.left) ? right : left;
+            if (!number || !other) {
+                return std::nullopt;
+            }
+            // 100*a/b - 100 is (a/b - 1)*100.
+            return WrittenProduct{.factor = is_same(number->factor, other->factor) ? other->factor : 1.0,
+                                  .size = other->size,
+                                  .terms = terms_of(node.operation, 1.0, other->terms)};
+        }
         if (!left || !right || std::fabs(left->size - right->size) > 1e-9 * left->size) {
             return std::nullopt;
         }
-        const bool same = std::fabs(left->factor - right->factor) <= 1e-9 * std::fabs(left->factor);
-        return WrittenProduct{.factor = same ? left->factor : 1.0, .size = left->size};
+        return WrittenProduct{.factor = is_same(left->factor, right->factor) ? left->factor : 1.0,
+                              .size = left->size,
+                              .terms = terms_of(node.operation, left->terms, right->terms)};
+    }
+
+    /// Of differences that are added, a - b + c - d, each is one term.
+    [[nodiscard]] static double terms_of(Operation operation, double left, double right) {
+        return operation == Operation::add        ? left + right
+               : operation == Operation::subtract ? std::max(left, right)
+                                                  : 1;
     }
 };
 

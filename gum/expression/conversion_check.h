@@ -15,6 +15,7 @@ namespace gumcert::gum {
 struct WrittenProduct {
     double factor = 1.0;  ///< the literal numbers that everything else is multiplied by, and pi
     double size = 1.0;    ///< in SI, of 1 in the units in which its quantities are stated
+    double terms = 1.0;   ///< how many are added: a factor of 1/terms makes a mean of them, and converts nothing
 };
 
 /// The product that an equation is; nothing where its units do not say what a spreadsheet would get.

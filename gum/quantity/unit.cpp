@@ -9,6 +9,7 @@
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/unit_exponent.h"
 #include "gum/quantity/unit_expression.h"
+#include "gum/quantity/unit_meant.h"
 #include "gum/quantity/unit_table.h"
 #include "text/numbers.h"
 
@@ -210,7 +211,8 @@ void refuse_other_scales(std::string_view text) {
     const auto has = [&](std::string_view part) { return text.find(part) != std::string_view::npos; };
     constexpr std::array<std::string_view, 7> k_levels{"dBm", "dBW", "dBV", "dBu", "dBuV", "dBc", "Np"};
     if (text.starts_with("lg(") || text.starts_with("ln(") || text.starts_with("lb(") || text.starts_with("dB(") ||
-        text.starts_with("dB re ") || std::find(k_levels.begin(), k_levels.end(), text) != k_levels.end()) {
+        text.starts_with("dB re ") || text == "dB (A)" || text == "dB (C)" || text == "dB (B)" || text == "dB (Z)" ||
+        std::find(k_levels.begin(), k_levels.end(), text) != k_levels.end()) {
         throw unit_error("GC-UNIT-0002", text, "a logarithmic unit",
                          "levels are stated in dB, which is a unit of its own",
                          "Write dB, or state the quantity itself and use log10 in the model.");
@@ -227,7 +229,9 @@ void refuse_other_scales(std::string_view text) {
 
 InputError refused(std::string_view text, const UnitRefusal& refusal) {
     using Reason = UnitRefusal::Reason;
-    const auto action = [&](const char* other) { return refusal.action.empty() ? other : refusal.action; };
+    // A digit or a full stop ends a name: "mmH2O" and "%r.F." are known as a whole only.
+    const std::string own = refusal.action.empty() ? unit_meant(text) : refusal.action;
+    const auto action = [&](const char* other) { return own.empty() ? other : own; };
     switch (refusal.reason) {
         case Reason::exponent:
             return unit_error("GC-UNIT-0005", text, refusal.what,

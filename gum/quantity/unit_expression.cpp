@@ -397,7 +397,10 @@ private:
                        "Write " + std::string(ambiguous.meanings.substr(colon + 8)) + ".");
             }
         }
-        refuse(Reason::not_known, "\"" + std::string(name) + "\" is not a unit that is known", unit_meant(name));
+        const std::size_t before = from == 0 ? std::string_view::npos : text_.find_last_not_of(' ', from - 1);
+        const bool below_a_line = before != std::string_view::npos && text_[before] == '/';
+        refuse(Reason::not_known, "\"" + std::string(name) + "\" is not a unit that is known",
+               unit_meant(name, below_a_line));
     }
 
     UnitExpression unit(int depth) {

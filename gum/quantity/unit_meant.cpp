@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdlib>
 #include <utility>
 #include <vector>
 
@@ -40,7 +41,11 @@ constexpr std::array k_words{
     WordForUnit{"Ws", "W s"},
     WordForUnit{"ccm", "cm3"},
     WordForUnit{"cbm", "m3"},
+    WordForUnit{"NM", "N m, or nm"},
+    WordForUnit{"CC Cc", "cm3"},
     WordForUnit{"kp", "kgf"},
+    WordForUnit{"KP Kp", "kPa or kgf"},
+    WordForUnit{"kn", "knot"},
     WordForUnit{"pct %rh %RH %rF %r.F. rh RH %FS %IACS", "percent, and say in the description of what"},
     WordForUnit{"FS FSO rdg RDG", "percent, and state the limit of the range or the reading in a specification"},
     WordForUnit{"digit digits dgt cnt", "the unit of the display, with its step as the resolution"},
@@ -48,7 +53,8 @@ constexpr std::array k_words{
     WordForUnit{"HRA HRB HRC HRD HRE HRF HRG HRH HRK HRN HRT HRW HV HB HBW HBS HK HL HLD IRHD Shore", k_scale},
     WordForUnit{"NTU FNU FTU Brix PSU SG", k_scale},
     WordForUnit{
-        "Vrms mVrms uVrms kVrms Arms mArms uArms Vpp mVpp uVpp Vp mVp VAC VDC mVAC mVDC kVAC kVDC AAC ADC mAAC mADC",
+        "Vrms mVrms uVrms kVrms Arms mArms uArms Vpp mVpp uVpp Vp mVp VAC VDC mVAC mVDC kVAC kVDC AAC ADC mAAC mADC "
+        "AC DC ac dc pp rms RMS",
         k_kind_of_value},
     WordForUnit{"barg bara mbarg mbara kPag kPaa kPa_a kPa_g MPag MPaa psig psia psid", k_kind_of_pressure},
     WordForUnit{"mmH2O cmH2O inH2O mmWS mmWC mmWG inWC inWG mH2O mWS",
@@ -57,8 +63,8 @@ constexpr std::array k_words{
     WordForUnit{"cpm", "1/min"},
     WordForUnit{"mho", "S"},
     WordForUnit{"r U upm Upm", "rpm for turns a minute (r/min, U/min), or 1/min for a number of them"},
-    WordForUnit{"Celsius celsius ºC", "degC"},
-    WordForUnit{"Fahrenheit fahrenheit ºF", "degF"},
+    WordForUnit{"Celsius ºC", "degC"},
+    WordForUnit{"Fahrenheit ºF", "degF"},
     WordForUnit{"º", "deg"},
 };
 
@@ -79,6 +85,19 @@ std::vector<std::string_view> words_of(std::string_view text) {
         text.remove_prefix(std::min(end + 1, text.size()));
     }
     return words;
+}
+
+/// "(N m)" of "N m", and "(N m), or nm" of "N m, or nm": below a line a product stands in brackets.
+std::string with_brackets(std::string_view write) {
+    const std::string_view first = write.substr(0, write.find(','));
+    const bool is_product = words_of(first).size() == 2;
+    return is_product ? "(" + std::string(first) + ")" + std::string(write.substr(first.size())) : std::string(write);
+}
+
+/// Whether people write a prefix in front of a unit: "aT" and "cC" are in no data sheet.
+bool is_in_use(const PrefixDefinition& prefix, std::string_view unit) {
+    const int power = std::abs(prefix.exp10);
+    return power < 3 ? unit == "m" || unit == "L" || unit == "l" || unit == "Pa" : power < 18;
 }
 
 /// Units that differ from a name by capital letters only, in the order of the table.
@@ -102,6 +121,9 @@ std::vector<std::string> with_other_capitals(std::string_view name) {
                 }
                 see(std::string(word));
                 for (const PrefixDefinition& prefix : prefix_definitions()) {
+                    if (!is_in_use(prefix, word)) {
+                        continue;
+                    }
                     for (const std::string_view spelling : words_of(prefix.symbols)) {
                         see(std::string(spelling) + std::string(word));
                     }
@@ -115,11 +137,11 @@ std::vector<std::string> with_other_capitals(std::string_view name) {
 
 }  // namespace
 
-std::string unit_meant(std::string_view name) {
+std::string unit_meant(std::string_view name, bool below_a_line) {
     for (const WordForUnit& known : k_words) {
         const std::vector<std::string_view> words = words_of(known.words);
         if (std::find(words.begin(), words.end(), name) != words.end()) {
-            return "Write " + std::string(known.write) + ".";
+            return "Write " + (below_a_line ? with_brackets(known.write) : std::string(known.write)) + ".";
         }
     }
     constexpr std::size_t k_most_offered = 3;  // of "MHZ" two; more are no advice

@@ -890,7 +890,8 @@ void BudgetInputs::finish_points(BudgetJob& job) {
 }
 
 std::optional<std::size_t> BudgetInputs::point_input(const std::string& name, const std::string& where,
-                                                     const BudgetJob& job, ProblemList& problems) const {
+                                                     const BudgetJob& job, ProblemList& problems,
+                                                     const std::string* column) const {
     if (const auto found = of_name_.find(name); found != of_name_.end()) {
         return found->second;
     }
@@ -910,11 +911,12 @@ std::optional<std::size_t> BudgetInputs::point_input(const std::string& name, co
     const auto nearest = nearest_word(name, known);
     problems.refuse(k_unknown_quantity, where, text::in_quotes(name) + " is none of the inputs",
                     "a point states inputs of the job, by NAME or NAME.key, and its own name as \"point\"",
-                    name.empty() ? "give the column a name, or remove it"
-                    : nearest    ? "did you mean " + text::in_quotes(*nearest) + "?"
+                    column == nullptr && name.empty() ? "remove it, or name the input"
+                    : name.empty()                    ? "give the column a name, or remove it"
+                    : nearest                         ? "did you mean " + text::in_quotes(*nearest) + "?"
                               : "correct the name; declare a column for people in the columns of the points, such as "
                                 "\"columns\": {" +
-                                    text::in_quotes(name) + ": \"text\"}");
+                                    text::in_quotes(column == nullptr ? name : *column) + ": \"text\"}");
     return std::nullopt;
 }
 
@@ -1036,23 +1038,26 @@ void BudgetInputs::read_point_file(const std::string& name, BudgetJob& job) {
         if (const std::size_t bracket = field.name.find_first_of("[("); bracket != std::string::npos && bracket > 0) {
             std::string bare = field.name.substr(0, bracket);
             bare.erase(bare.find_last_not_of(' ') + 1);
-            file->problems->refuse(k_unknown_key, where, "the column " + text::in_quotes(field.name),
-                                   "a column is called NAME or NAME.key: its unit is that of the input",
-                                   "write " + text::in_quotes(bare) + ", and state the unit in the job");
-            is_known = false;
-            continue;
+            // Of another name the brackets hold words for people: "Remark (free)".
+            if (std::find(names_.begin(), names_.end(), bare.substr(0, bare.rfind('.'))) != names_.end()) {
+                file->problems->refuse(k_unknown_key, where, "the column " + text::in_quotes(field.name),
+                                       "a column is called NAME or NAME.key: its unit is that of the input",
+                                       "write " + text::in_quotes(bare) + ", and state the unit in the job");
+                is_known = false;
+                continue;
+            }
         }
         const std::size_t dot = field.name.rfind('.');
         const bool is_reading = dot != std::string::npos && dot + 1 < field.name.size() &&
                                 field.name.find_first_not_of("0123456789", dot + 1) == std::string::npos;
         if (is_reading) {
-            const auto index = point_input(field.name.substr(0, dot), where, job, *file->problems);
+            const auto index = point_input(field.name.substr(0, dot), where, job, *file->problems, &field.name);
             is_known = is_known && index;
             columns.push_back({.name = field.name, .input = index, .key = "observations", .is_reading = true});
             continue;
         }
         if (const auto [of_input, word] = LaboratoryUse::reference_column(field.name); !word.empty()) {
-            const auto index = point_input(std::string(of_input), where, job, *file->problems);
+            const auto index = point_input(std::string(of_input), where, job, *file->problems, &field.name);
             is_known = is_known && index;
             columns.push_back({.name = field.name, .input = index, .key = word, .is_reference = true});
             continue;
@@ -1060,7 +1065,7 @@ void BudgetInputs::read_point_file(const std::string& name, BudgetJob& job) {
         const std::string_view key =
             dot == std::string::npos ? std::string_view{"value"} : std::string_view{field.name}.substr(dot + 1);
         const auto known = std::find(keys.begin(), keys.end(), key);
-        const auto index = point_input(field.name.substr(0, dot), where, job, *file->problems);
+        const auto index = point_input(field.name.substr(0, dot), where, job, *file->problems, &field.name);
         if (index && known == keys.end()) {
             const auto nearest = nearest_word(key, keys);
             file->problems->refuse(k_unknown_key, where,

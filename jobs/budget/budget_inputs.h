@@ -137,8 +137,10 @@ private:
     /// \param told  inputs that were refused at this point already
     void read_point(gum::BudgetPoint& point, const std::map<std::size_t, StatementKeys>& overrides,
                     const std::set<std::size_t>& told, BudgetJob& job);
+    /// \param column  of a file, as it is called there, for the advice; none of a point in the job
     [[nodiscard]] std::optional<std::size_t> point_input(const std::string& name, const std::string& where,
-                                                         const BudgetJob& job, ProblemList& problems) const;
+                                                         const BudgetJob& job, ProblemList& problems,
+                                                         const std::string* column = nullptr) const;
     void name_point(gum::BudgetPoint& point, const std::optional<std::string>& name, const std::string& where,
                     const BudgetJob& job, ProblemList& problems);
 

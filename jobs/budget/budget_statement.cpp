@@ -373,22 +373,25 @@ std::optional<double> StatementReader::number_of(const JsonObject& object, std::
     return object.optional_number(key, range);
 }
 
+void StatementReader::warn_of_unusual_coverage_factor(double k, double nu, std::string_view place) const {
+    if (is_unusual_coverage_factor(k, nu)) {
+        keys_.warn(k_warn_unusual_coverage_factor, place, "a coverage factor of " + text::shortest_plain(k),
+                   "U = k u with k about 2 for a coverage probability of 95 %",
+                   "check that it is the coverage factor, and neither the coverage probability (\"p\") nor U");
+    }
+}
+
 bool StatementReader::read_expanded_uncertainty(bool is_relative) {
     const std::string_view key = is_relative ? "relative_U" : "U";
     const bool has_value = read_value();
     const auto expanded = keys_.number(key, is_relative ? relative_range() : uncertainty_range());
     const auto nu = degrees_of_freedom();
-    const auto k = nu ? coverage_factor(keys_, *nu) : std::nullopt;
+    const auto k = nu ? coverage_factor(keys_, *nu, "k") : std::nullopt;
     quantity_.statement += keys_.has("p") ? ", p" : ", k";
     if (!has_value || !expanded || !nu || !k) {
         return false;
     }
     const double factor = k.value_or(1.0);
-    if (keys_.has("k") && is_unusual_coverage_factor(factor, *nu)) {
-        keys_.warn(k_warn_unusual_coverage_factor, "k", "a coverage factor of " + text::shortest_plain(factor),
-                   "U = k u with k about 2 for a coverage probability of 95 %",
-                   "check that it is the coverage factor, and neither the coverage probability (\"p\") nor U");
-    }
     const auto reference = is_relative ? reference_of_relative(key) : std::optional{1.0};
     return reference && set_standard_uncertainty(*expanded * *reference / factor, *nu);
 }

@@ -108,8 +108,9 @@ private:
     bool read_standard_uncertainty(bool is_relative);
 
     /// k from the keys `k` or `p`.
+    /// \param place  key of the statement that has them, for a warning
     template <typename Keys>
-    std::optional<double> coverage_factor(const Keys& keys, double nu) {
+    std::optional<double> coverage_factor(const Keys& keys, double nu, std::string_view place) {
         const bool has_k = keys.has("k");
         if (has_k == keys.has("p")) {
             keys.refuse(has_k ? k_two_statements : k_incomplete_statement, has_k ? "p" : "",
@@ -119,7 +120,11 @@ private:
             return std::nullopt;
         }
         if (has_k) {
-            return number_of(keys, "k", above_zero(""));
+            const auto k = number_of(keys, "k", above_zero(""));
+            if (k) {
+                warn_of_unusual_coverage_factor(*k, nu, place);
+            }
+            return k;
         }
         const NumberRange probability{.low = 0.0,
                                       .high = 1.0,
@@ -137,6 +142,7 @@ private:
             return std::nullopt;
         }
     }
+    void warn_of_unusual_coverage_factor(double k, double nu, std::string_view place) const;
     static std::optional<double> number_of(const StatementKeys& keys, std::string_view key, const NumberRange& range);
     static std::optional<double> number_of(const JsonObject& object, std::string_view key, const NumberRange& range);
 

@@ -522,7 +522,7 @@ bool StatementReader::read_specification() {
             object->refuse(k_two_statements, "distribution", "\"distribution\" beside \"k\" or \"p\"",
                            "a specification with a coverage factor is an expanded uncertainty", "keep one of them");
         }
-        stated.coverage_factor = nu ? coverage_factor(*object, *nu) : std::nullopt;
+        stated.coverage_factor = nu ? coverage_factor(*object, *nu, "specification") : std::nullopt;
     } else if (const auto word = object->optional_string("distribution")) {
         const auto known = std::find_if(k_plain_bounded_words.begin(), k_plain_bounded_words.end(),
                                         [&](const auto& one) { return one.first == *word; });

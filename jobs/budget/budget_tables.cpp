@@ -115,23 +115,26 @@ private:
     /// certificate nor the range of a scope knows at which nominal value an error was measured.
     void warn_of_roles(const JsonObject& part) const {
         std::vector<std::string> names;
-        if (job_.sections.empty()) {
-            for (const gum::BudgetInput& i : job_.inputs) {
-                if (job_.input_parts.contains(i.name)) {
-                    names.push_back(text::in_quotes(i.name));
-                }
+        std::string first;
+        const auto see = [&](const std::string& pointer, const std::string& name) {
+            first = names.empty() ? child_pointer(pointer, name) : first;
+            names.push_back(text::in_quotes(name));
+        };
+        for (const gum::BudgetInput& i : job_.inputs) {
+            if (job_.input_parts.contains(i.name) && is_here(i) && !is_shown_elsewhere(i)) {
+                see("/inputs", i.name);
             }
         }
         for (const auto& [name, unit] : results_[section_]) {
             const QuantityPart part_of = part_of_result(name);
             const bool is_plain = part_of.role == "measured_value" && part_of.stage.empty();  // what a result is anyway
             if (job_.output_parts.contains(name) && !is_plain) {
-                names.push_back(text::in_quotes(name));
+                see(part.pointer("outputs"), name);
             }
         }
         if (!names.empty()) {
             problems_.warn(
-                k_warn_roles_without_points, document_.where(part.pointer("outputs")),
+                k_warn_roles_without_points, document_.where(first),
                 std::string(names.size() == 1 ? "role or stage of " : "roles or stages of ") + text::listed(names, 5) +
                     ", and no points",
                 "a role is the heading of a column, the name of its numbers in the digital certificate, and the "
@@ -148,6 +151,15 @@ private:
     }
     [[nodiscard]] bool is_here(const gum::BudgetInput& i) const {
         return job_.sections.empty() || inputs_.is_used(i.name, section_);
+    }
+    /// Whether a section with points uses an input, and shows its role.
+    [[nodiscard]] bool is_shown_elsewhere(const gum::BudgetInput& i) const {
+        for (std::size_t s = 0; s < job_.sections.size(); ++s) {
+            if (job_.sections[s].points > 0 && inputs_.is_used(i.name, s)) {
+                return true;
+            }
+        }
+        return false;
     }
 
     // ---- names ------------------------------------------------------------------------------------------------------

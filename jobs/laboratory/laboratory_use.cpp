@@ -862,29 +862,30 @@ bool LaboratoryUse::refuse_without_folder(json& data, const CertificatePlace& pl
     if (folder_) {
         return false;
     }
-    const auto refuse = [&](json& value, const std::string& relative) {
+    const auto refuse = [&](json& value, const std::string& relative, const std::string& example) {
         if (value.is_string() || (value.is_object() && value.contains("id"))) {
             place.below(relative).refuse(
                 k_laboratory_missing, described(value) + ", and no laboratory",
                 "what is not written out stands in the files of the laboratory",
                 "add \"laboratory\": \"FOLDER\" to the job, or use --laboratory FOLDER; without such a "
-                "folder write it out, such as {\"name\": \"A. Feld\"}");
+                "folder write it out" +
+                    example);
             discard(value);
         }
     };
     for (const char* key : {"customer", "method"}) {
         if (data.contains(key)) {
-            refuse(data[key], std::string("/") + key);
+            refuse(data[key], std::string("/") + key, "");
         }
     }
     if (data.contains("persons") && data["persons"].is_object()) {
         for (auto& [key, person] : data["persons"].items()) {
-            refuse(person, child_pointer("/persons", key));
+            refuse(person, child_pointer("/persons", key), R"(, such as {"name": "A. Feld"})");
         }
     }
     if (data.contains("standards") && data["standards"].is_array()) {
         for (std::size_t i = 0; i < data["standards"].size(); ++i) {
-            refuse(data["standards"][i], child_pointer("/standards", i));
+            refuse(data["standards"][i], child_pointer("/standards", i), "");
         }
     }
     return true;

@@ -2,6 +2,7 @@
 
 #include "certificate/statement_of_uncertainty.h"
 #include "reports/printed_texts.h"
+#include "reports/record/reported_result.h"
 #include "reports/reported_results.h"
 #include "reports/result_names.h"
 
@@ -196,36 +197,69 @@ std::vector<std::string> names_in_equation(std::string_view equation) {
     return names;
 }
 
-/// What a result rests on, as the equations of the record say it: itself, what its equation names, and what these rest on.
-std::set<std::string> rests_on(const EvaluationRecord& record, const std::string& result) {
-    std::set<std::string> reached{result};
-    if (!record.model) {
-        return reached;
-    }
-    const auto& unknowns = record.model->unknowns;
-    for (std::size_t before = 0; before != reached.size();) {
-        before = reached.size();
-        const bool implicit = std::any_of(unknowns.begin(), unknowns.end(),
-                                          [&](const std::string& name) { return reached.contains(name); });
+/// What the results of a record rest on, as its equations say it.
+class Influences {
+public:
+    explicit Influences(const EvaluationRecord& record) {
+        if (!record.model) {
+            return;
+        }
+        unknowns_.insert(record.model->unknowns.begin(), record.model->unknowns.end());
         for (const std::string& equation : record.model->equations) {
-            const std::string left = equation.substr(0, equation.find_first_of(" ="));
-            if (reached.contains(left) || (implicit && left == "0")) {
-                const std::vector<std::string> names = names_in_equation(equation);
-                reached.insert(names.begin(), names.end());
-            }
+            std::vector<std::string> names = names_in_equation(equation);
+            std::vector<std::string>& of_left = named_[equation.substr(0, equation.find_first_of(" ="))];
+            of_left.insert(of_left.end(), std::make_move_iterator(names.begin()), std::make_move_iterator(names.end()));
         }
     }
-    return reached;
-}
+
+    /// Itself, what its equation names, and what these rest on. The points of a table have one equation.
+    const std::set<std::string>& of(const std::string& quantity) {
+        const auto [known, is_new] = known_.try_emplace(quantity);
+        std::set<std::string>& reached = known->second;
+        if (is_new) {
+            std::vector<std::string> open;
+            const auto see = [&](const std::string& name) {
+                if (reached.insert(name).second) {
+                    open.push_back(name);
+                }
+            };
+            see(quantity);
+            for (bool implicit = false; !open.empty();) {
+                const std::string name = std::move(open.back());
+                open.pop_back();
+                see_named(name, see);
+                if (!implicit && unknowns_.contains(name)) {
+                    implicit = true;
+                    see_named("0", see);
+                }
+            }
+        }
+        return reached;
+    }
+
+private:
+    template <class See>
+    void see_named(const std::string& left, const See& see) const {
+        if (const auto equations = named_.find(left); equations != named_.end()) {
+            std::for_each(equations->second.begin(), equations->second.end(), see);
+        }
+    }
+
+    std::set<std::string> unknowns_;
+    std::map<std::string, std::vector<std::string>> named_;  ///< in the equations with this left side
+    std::map<std::string, std::set<std::string>> known_;
+};
 
 /// Whether a row of a budget adds to the uncertainty of its result. The trials of Monte Carlo vary every uncertain input that the
 /// result rests on, also one whose sensitivity coefficient is 0: the angle of a cosine error may be the whole of it.
-/// \param influences  what the result rests on; itself alone where no equation says it
-bool contributes(const BudgetRow& row, const Result& result, const std::set<std::string>& influences) {
+/// Where no equation says what the result rests on, that is itself alone.
+bool contributes(const BudgetRow& row, const Result& result, Influences& all) {
     if (row.contribution.number != 0.0) {
         return true;
     }
-    if (result.reported.method == "monte_carlo" && influences.size() > 1) {
+    if (const std::string& quantity = result.quantity.empty() ? result.name : result.quantity;
+        reported_result(result).method == "monte_carlo" && all.of(quantity).size() > 1) {
+        const std::set<std::string>& influences = all.of(quantity);
         return row.role == "fit" ? std::any_of(row.components.begin(), row.components.end(),
                                                [&](const BudgetRow& part) { return influences.contains(part.input); })
                                  : row.u.number != 0.0 && influences.contains(row.input);
@@ -252,15 +286,10 @@ std::vector<Text> contributions(const EvaluationRecord& record, const Wording& w
     }
     const bool some_are_certified = std::any_of(record.results.begin(), record.results.end(),
                                                 [&](const Result& r) { return is_certified(r, record); });
-    std::map<std::string, std::set<std::string>> influences;  // the points of a table have one equation
+    Influences influences(record);
     for (const Result& r : record.results) {
-        const std::string& quantity = r.quantity.empty() ? r.name : r.quantity;
-        const auto known = influences.find(quantity);
-        const auto& of_result = known == influences.end()
-                                    ? influences.emplace(quantity, rests_on(record, quantity)).first->second
-                                    : known->second;
         for (const BudgetRow& row : r.budget) {
-            if ((some_are_certified && !is_certified(r, record)) || !contributes(row, r, of_result)) {
+            if ((some_are_certified && !is_certified(r, record)) || !contributes(row, r, influences)) {
                 continue;
             }
             if (row.role != "fit") {

@@ -30,7 +30,8 @@ ROOMS = ("gum", "engine", "certificate")  # with the folders in them
 # Asked when no test of the layer itself has failed: those of layers that rest on it. Paths below tests/.
 WIDER = {
     "gum": ["unit/gum/budget", "unit/gum/comparison", "unit/certificate", "property", "reference"],
-    "engine": ["unit/engine/rotary_table", "unit/engine/rotary_table/evaluation", "unit/gum/rotary_table", "unit/gum/budget", "property",
+    "engine": ["unit/engine/rotary_table", "unit/engine/rotary_table/evaluation", "unit/engine/rotary_table/start",
+               "unit/gum/rotary_table", "unit/gum/budget", "property",
                "reference"],
     "certificate": ["unit/certificate/gates", "unit/reports/record/make/certificate", "unit/jobs/certificate", "reference"],
 }

@@ -33,8 +33,8 @@ Eigen::Vector3d mirror_image(const std::vector<Eigen::Vector3d>& points, const E
 }
 
 std::vector<Eigen::Vector3d> all_sides(const Eigen::Vector3d& centre) {
-    constexpr double k_distance =
-        1.0;  // [m]; how far off matters little: from 0.6 m and from 1.5 m the same were found
+    // How far off matters little: from 0.6 m and from 1.5 m the same were found.
+    constexpr double k_distance = 1.0;  // [m]
     std::vector<Eigen::Vector3d> result;
     for (int c = 0; c < 3; ++c) {
         for (const double side : {1.0, -1.0}) {

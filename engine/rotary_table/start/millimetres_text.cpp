@@ -8,8 +8,8 @@
 namespace gumcert::engine {
 
 std::string millimetres(double value, int decimals) {
-    const double unit = std::pow(10.0, -decimals);
-    value = std::round(value / gum::k_millimetre / unit) * unit;
+    const double scale = std::pow(10.0, decimals);  // not 0.1, which is no double: 0.35 mm is 0.4
+    value = std::round(value / gum::k_millimetre * scale) / scale;
     value = value == 0.0 ? 0.0 : value;  // no minus sign on a zero
     return text::fixed(value, decimals);
 }

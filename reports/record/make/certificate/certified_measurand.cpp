@@ -89,19 +89,15 @@ std::optional<Finding> range_of_input(const ScopeEntry& entry, std::size_t i, co
     if (!beyond && (nominal || row->u.number > 0.0)) {
         return std::nullopt;
     }
-    return Finding{
-        .id = "X12",
-        .clause = "ILAC-P14:09/2020",
-        .severity = !beyond                ? FindingSeverity::minor
-                    : row->u.number == 0.0 ? FindingSeverity::critical
-                                           : FindingSeverity::major,
-        .where = certificate::place_in("/accreditation/scope", i, "ranges"),
-        .what = "the range of \"" + entry.id + "\" is held against the input \"" + row->input +
-                "\" = " + text::shortest(*row->value.number) + " " + row->unit + ", and " + measured.in_words,
-        .action =
-            "Where the result is an error, a deviation, a correction or a hysteresis, state its role in the outputs of "
-            "the job, and at least one point (\"points\"): it is then held against the place where it was measured. "
-            "Else hold the range against the result (\"of\": \"value\"), or state the true parameter."};
+    return Finding{.id = "X12",
+                   .clause = "ILAC-P14:09/2020",
+                   .severity = !beyond                ? FindingSeverity::minor
+                               : row->u.number == 0.0 ? FindingSeverity::critical
+                                                      : FindingSeverity::major,
+                   .where = certificate::place_in("/accreditation/scope", i, "ranges"),
+                   .what = "the range of \"" + entry.id + "\" is held against the input \"" + row->input + "\" = " +
+                           text::shortest(*row->value.number) + " " + row->unit + ", and " + measured.in_words,
+                   .action = certificate::action_of_range(measured)};
 }
 
 std::optional<Finding> capability_of_input(const ScopeEntry& entry, std::size_t i, const CapabilityArgument& argument,

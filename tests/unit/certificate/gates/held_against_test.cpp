@@ -97,6 +97,20 @@ TEST(HeldAgainst, AnErrorWasMeasuredAtItsPoint) {
     EXPECT_EQ(measured_at(table, table.columns[0], 0, Unit::parse("Hz")).name, "E");
     CertifiedTable bare = table;
     bare.layout.reset();
+    // Only of what was held against its own value the role and the point may be missing.
+    const Measured itself = measured_at(bare, bare.columns[0], 0, Unit::parse("uV"));
+    EXPECT_TRUE(first.is_place);
+    EXPECT_FALSE(itself.is_place);
+    EXPECT_EQ(action_of_range(first),
+              "Hold the range against the result (\"of\": \"value\"), or state the true parameter.");
+    EXPECT_NE(action_of_range(itself).find("state its role in the outputs of the job, and at least one point"),
+              std::string::npos);
+    for (const Measured& measured : {first, itself}) {
+        const std::optional<Finding> taken = capability_taken_elsewhere(
+            {}, 0, {.name = "V", .unit = "uV", .of = "V_n"}, {.name = "V_n", .value = 0.1, .unit = "uV"}, measured);
+        ASSERT_TRUE(taken);
+        EXPECT_EQ(taken->action.find("state its role") == std::string::npos, measured.is_place) << taken->action;
+    }
     EXPECT_EQ(measured_at(bare, bare.columns[0], 0, Unit::parse("V")).name, "E");
 }
 

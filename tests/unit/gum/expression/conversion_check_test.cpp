@@ -16,9 +16,10 @@ namespace {
 using testing::HasSubstr;
 
 std::vector<InputSymbol> stated() {
-    return {input("a", "V"),     input("b", "V"), input("c", "mV"),        input("x", "mm"),    input("l", "mm"),
-            input("m", "kg"),    input("V", "L"), input("t", "s"),         input("phi", "rad"), input("T", "degC"),
-            input("T2", "degC"), input("n", "1"), input("one", "dB", 1.0), input("F", "N"),     input("d", "mm")};
+    return {input("a", "V"),         input("b", "V"),    input("c", "mV"),    input("x", "mm"),
+            input("l", "mm"),        input("m", "kg"),   input("V", "L"),     input("t", "s"),
+            input("phi", "rad"),     input("T", "degC"), input("T2", "degC"), input("n", "1"),
+            input("one", "dB", 1.0), input("F", "N"),    input("d", "mm"),    input("p", "percent")};
 }
 
 /// Codes of the warnings of the last equation's result, declared in a unit.
@@ -51,8 +52,20 @@ TEST(ConversionCheck, WarnsOfAFactorThatLeadsToTheDeclaredUnit) {
                                                           {"y = x/l*3600*180/pi", "1"},
                                                           {"y = V/t*3600", "L/h"},
                                                           {"y = 1000*(T - T2)", "mK"},
-                                                          {"y = sqrt(a^2 + b^2)*1000", "mV"}}) {
-        EXPECT_EQ(warned({equation}, "y", unit), unit == "1" ? "" : "GC-MODEL-0046") << equation << " in " << unit;
+                                                          {"y = sqrt(a^2 + b^2)*1000", "mV"},
+                                                          {"y = 100*a/b - 100", "percent"},
+                                                          {"y = 100 - 100*a/b", "percent"},
+                                                          {"y = -100 + a/b*100", "percent"},
+                                                          {"y = p^(-1/2)*10", "1"},
+                                                          {"y = p^-0.5*10", "1"},
+                                                          {"y = p^((-1)^3)*100", "1"},
+                                                          {"y = x^(2*-1)*1e6", "1/m2"},
+                                                          {"y = x^(-2)*1e6", "1/m2"},
+                                                          {"y = (x + l + d)/3/10", "cm"},
+                                                          {"y = (x + l + d)*2/10/2", "cm"},
+                                                          {"y = (10*x - (-10)*l)/100", "cm"}}) {
+        EXPECT_EQ(warned({equation}, "y", unit), equation == "y = x/l*3600*180/pi" ? "" : "GC-MODEL-0046")
+            << equation << " in " << unit;
     }
     EXPECT_EQ(warned({"y = -r", "r = (a - b)/b*100"}, "y", "percent"), "GC-MODEL-0046") << "by way of another equation";
     const Diagnostic warning = system_of({"y = (a - b)/b*1e6"}, stated(), {}, {output("y", "ppm")}).warnings().front();
@@ -78,7 +91,13 @@ TEST(ConversionCheck, IsSilentOfAllOtherFactors) {
                                                           {"y = V/t", "L/h"},
                                                           {"y = n*(a - b)/b", "percent"},
                                                           {"y = x*exp(1000*n)", "um"},
-                                                          {"y = phi/2", "deg"}}) {
+                                                          {"y = phi/2", "deg"},
+                                                          {"y = p^(-1/2)/10", "1"},
+                                                          {"y = p^((-1)^3)/100", "1"},
+                                                          {"y = x^(2*-1)*1e-6", "1/m2"},
+                                                          {"y = x^(-2)*1e-6", "1/m2"},
+                                                          {"y = 100*a/b - 10", "percent"},
+                                                          {"y = a/b*(100 + 100)", "percent"}}) {
         EXPECT_EQ(warned({equation}, "y", unit), "") << equation << " in " << unit;
     }
     // A factor that is an input was meant.
@@ -86,6 +105,27 @@ TEST(ConversionCheck, IsSilentOfAllOtherFactors) {
     EXPECT_TRUE(system_of({"y = f*(a - b)/b"}, with_factor, {}, {output("y", "percent")}).warnings().empty());
     // Without a declared unit a number stays a number.
     EXPECT_TRUE(system_of({"y = (a - b)/b*1e6"}, with_factor).warnings().empty());
+}
+
+/// The number of readings is no conversion, however the mean of them is written.
+TEST(ConversionCheck, IsSilentOfMeans) {
+    for (const int n : {10, 100}) {
+        std::string sum = "x";
+        std::string of_differences = "x - l";
+        for (int i = 1; i < n; ++i) {
+            sum += i % 2 == 0 ? " + x" : " + l";
+            of_differences += " + x - d";
+        }
+        const std::string count = std::to_string(n), share = n == 10 ? "0.1" : "0.01";
+        const std::string unit = n == 10 ? "cm" : "dm";
+        for (const std::string& equation : {"y = (" + sum + ")/" + count, "y = (" + of_differences + ")/" + count,
+                                            "y = " + share + "*(" + sum + ")", "y = 1/" + count + "*(" + sum + ")",
+                                            "y = n*(" + sum + ")/" + count, "y = (" + sum + ")/(" + count + "*n)"}) {
+            EXPECT_EQ(warned({equation}, "y", unit), "") << equation;
+        }
+        EXPECT_EQ(warned({"y = r/" + count, "r = " + sum}, "y", unit), "") << "by way of another equation";
+        EXPECT_EQ(warned({"y = (" + sum + ")/" + count + "/" + count}, "y", unit), "GC-MODEL-0046");
+    }
 }
 
 /// A law: in front of any conversion, its own factor is told, and no factor that is a fifth off.

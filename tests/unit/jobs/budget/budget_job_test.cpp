@@ -338,7 +338,11 @@ TEST(BudgetJob, TellsCoverageFactorsBelowOne) {
                                                   {R"j("U": 0.01, "k": 1)j", 0},
                                                   {R"j("U": 0.01, "k": 2)j", 0},
                                                   {R"j("U": 0.01, "p": 0.95)j", 0},
-                                                  {R"j("U": 0.01, "p": 0.5)j", 0}}) {
+                                                  {R"j("U": 0.01, "p": 0.5)j", 0},
+                                                  {R"j("specification": {"floor": 0.1, "k": 0.5})j", 1},
+                                                  {R"j("specification": {"floor": 0.1, "k": 95})j", 1},
+                                                  {R"j("specification": {"floor": 0.1, "k": 2})j", 0},
+                                                  {R"j("specification": {"floor": 0.1, "p": 0.5})j", 0}}) {
         EXPECT_EQ(told(read_budget(R"j("inputs": {"x": {"value": 1, )j" + statement + "}}")), expected) << statement;
     }
     EXPECT_EQ(told(read_budget(R"j("inputs": {"x": {"unit": "V"}}, "points": {"file": "p.csv"})j",

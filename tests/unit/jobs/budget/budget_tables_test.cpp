@@ -417,9 +417,30 @@ TEST(BudgetTables, TellRolesThatNoPointsShow) {
         }
         if (told != job.warnings.end()) {
             EXPECT_THAT(told->action, testing::HasSubstr(R"("points": [{}])"));
+            EXPECT_THAT(told->where,
+                        testing::StartsWith(one.input.empty() ? "job.json#/outputs/E" : "job.json#/inputs/m_N"));
         }
         if (one.rest == R"j(, "points": [{}])j") {
             EXPECT_THAT(shown(job.tables.at(0)), testing::IsSupersetOf({"column:m_N", "value:E", "U:E"}));
+        }
+    }
+}
+
+/// An input whose role no section shows is told by itself, and not where another section shows it.
+TEST(BudgetTables, TellRolesOfInputsThatNoSectionShows) {
+    for (const bool is_shown : {false, true}) {
+        const BudgetJob job = read_budget(
+            R"j("inputs": {"m": {"unit": "g", "value": 1000.005, "u": 0.001},
+            "m_N": {"unit": "g", "value": 1000, "constant": true, "role": "nominal"}},
+            "sections": {"first": {"model": "E = m - m_N", "outputs": {"E": {"unit": "mg"}}},
+            "second": {"model": "R = m)j" +
+            std::string(is_shown ? "/m_N" : "*2") + R"j(", "points": [{"m": 999}, {"m": 1001}]}})j");
+        const auto told = std::find_if(job.warnings.begin(), job.warnings.end(), [](const gum::Diagnostic& d) {
+            return d.code == k_warn_roles_without_points.code;
+        });
+        ASSERT_EQ(told == job.warnings.end(), is_shown);
+        if (!is_shown) {
+            EXPECT_THAT(told->where, testing::StartsWith("job.json#/inputs/m_N"));
         }
     }
 }

@@ -410,6 +410,31 @@ TEST(LaboratoryUseTest, ComponentsOfTheJobStandBehindAStandardThatIsNamedOnce) {
     }
 }
 
+/// Only a person is written out as a name and nothing else.
+TEST(LaboratoryUseTest, WithoutAFolderThePersonsAloneAreToldToBeANameWrittenOut) {
+    for (const auto& [key, value] : std::vector<std::pair<std::string, json>>{{"customer", "C-1"},
+                                                                              {"method", "M-1"},
+                                                                              {"standards", json::array({"STD-1"})},
+                                                                              {"persons", {{"performed_by", "AF"}}}}) {
+        json certificate = k_work;
+        certificate[key] = value;
+        json job = job_of({{"V", {{"value", 1}, {"u", 1}}}}, certificate);
+        job.erase("laboratory");
+        bool is_told = false;
+        try {
+            (void)read(job);
+        } catch (const gum::DiagnosedError& error) {
+            for (const gum::Diagnostic& diagnostic : error.diagnostics()) {
+                if (diagnostic.code == "GC-LAB-0100") {
+                    is_told = true;
+                    EXPECT_EQ(diagnostic.action.find("A. Feld") != std::string::npos, key == "persons") << key;
+                }
+            }
+        }
+        EXPECT_TRUE(is_told) << key;
+    }
+}
+
 TEST(LaboratoryUseTest, WhatIsWrongWithAStandardThatIsNamedOnceIsToldWithItsCell) {
     const auto told_of = [](const std::map<std::string, std::string>& files) {
         std::vector<std::string> all;

@@ -2,6 +2,7 @@
 // that it speaks of. Certificates are generated; what a sentence speaks of is read back from the document.
 
 #include "reports/forms/asset_files.h"
+#include "reports/record/reported_result.h"
 #include "reports/view/certificate_identity_sections.h"
 #include "reports/view/certificate_statement_sections.h"
 #include "reports/view/certified_overview.h"
@@ -638,7 +639,12 @@ TEST(CertificateSentences, OnContributionsNameWhatTrialsVaryWhereTheyAreReported
         EvaluationRecord record = test::certified_budget_record();
         Result& result = record.results.front();
         const bool by_trials = !draw.one_in(3);
-        result.reported.method = by_trials ? "monte_carlo" : "law_of_propagation";
+        result.reported = reported_result(result);
+        ASSERT_NE(result.reported.printed.value, "") << "else it is not what is reported";
+        if (by_trials) {
+            result.reported.method = "monte_carlo";
+            result.reported.interval = {result.value - result.U.value_or(1.0), result.value + result.U.value_or(1.0)};
+        }
         // The result names an equation of its own, and this names the inputs.
         record.model.emplace();
         std::string sum = "0.5e-3*1e2";

@@ -9,6 +9,7 @@ TEST(MillimetresText, IsRoundedAndAZeroHasNoSign) {
     EXPECT_EQ(millimetres(0.012345, 1), "12.3");
     EXPECT_EQ(millimetres(-0.01236, 1), "-12.4");
     EXPECT_EQ(millimetres(1.2345, 0), "1235");
+    EXPECT_EQ(millimetres(0.35e-3, 1), "0.4");
     EXPECT_EQ(millimetres(-1e-6, 1), "0.0");
     EXPECT_EQ(millimetres(-1e-4, 0), "0");
 }
