@@ -35,7 +35,7 @@ void count_up(const std::string& pattern) {
 void read_references(std::string_view record) {
     if (const auto references = archive::references_of(record)) {
         for (const archive::StandardReference& reference : references->references) {
-            demand(app::word_of(reference.kind) != nullptr, "a kind of reference");
+            demand(archive::word_of(reference.kind) != nullptr, "a kind of reference");
             demand(reference.text.empty() || archive::names(reference.text, reference.text),
                    "a text that is not its name");
         }

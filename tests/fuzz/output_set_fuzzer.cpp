@@ -8,7 +8,7 @@
 
 // A manifest or journal: what is accepted names files of its own folder only, and is the same after a round trip.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    using namespace gumcert::outputs;
+    namespace outputs = gumcert::outputs;
     const std::string bytes(data, data + size);
     const std::optional<outputs::SetManifest> manifest = outputs::set_manifest_from_json(bytes);
     if (!manifest) {
