@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <vector>
 
 namespace gumcert::gum {
 namespace {
@@ -14,26 +15,32 @@ TEST(MatrixBlocks, AreThoseOfTheProgramOnEveryProcessor) {
     EXPECT_EQ(Eigen::l3CacheSize(), k_third_level_cache);
 }
 
-/// Sums that nobody rounds twice alike: a product of matrices that are larger than a block.
-Eigen::MatrixXd product() {
-    constexpr Eigen::Index k_rows = 70, k_inner = 900, k_columns = 60;
+/// Products of matrices that are larger than a block, of several lengths of their sums: by some, blocks end elsewhere.
+std::vector<Eigen::MatrixXd> products() {
     const auto entry = [](Eigen::Index i, Eigen::Index j) {
         return 1.0 / (1.0 + static_cast<double>((37 * i + 101 * j) % 997));
     };
-    return Eigen::MatrixXd::NullaryExpr(k_rows, k_inner, entry) *
-           Eigen::MatrixXd::NullaryExpr(k_inner, k_columns, entry);
+    std::vector<Eigen::MatrixXd> all;
+    for (const Eigen::Index length : {300, 400, 500, 600, 700, 900, 1200}) {
+        const Eigen::MatrixXd a = Eigen::MatrixXd::NullaryExpr(70, length, entry);
+        const Eigen::MatrixXd b = Eigen::MatrixXd::NullaryExpr(length, 60, entry);
+        all.emplace_back(a * b);
+    }
+    return all;
 }
 
 // What this file is for. Should a later Eigen divide products by something else than the sizes of caches, this fails, and
 // somebody has to look what it is.
 TEST(MatrixBlocks, DecideTheLastBitsOfAProduct) {
-    const Eigen::MatrixXd here = product();
+    const std::vector<Eigen::MatrixXd> here = products();
     Eigen::setCpuCacheSizes(std::ptrdiff_t{32} << 10U, k_second_level_cache, k_third_level_cache);
-    const Eigen::MatrixXd there = product();
+    const std::vector<Eigen::MatrixXd> there = products();
     Eigen::setCpuCacheSizes(k_first_level_cache, k_second_level_cache, k_third_level_cache);
-    EXPECT_TRUE((here.array() != there.array()).any());
-    EXPECT_TRUE(here.isApprox(there, 1e-14));
-    EXPECT_TRUE((here.array() == product().array()).all());
+    EXPECT_NE(here, there);
+    EXPECT_EQ(here, products());
+    for (std::size_t i = 0; i < here.size(); ++i) {
+        EXPECT_TRUE(here[i].isApprox(there[i], 1e-14));
+    }
 }
 
 }  // namespace
