@@ -44,6 +44,25 @@ bool are_too_many(std::size_t results, const std::string& where, ProblemList& pr
     return true;
 }
 
+/// An id as it is whatever its capitals and separators. Those between digits tell numbers apart: "1-11" is not "11-1".
+std::string spelling_apart(std::string_view id) {
+    const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+    std::string form;
+    bool is_separated = false;
+    for (const char c : text::in_small_letters(id)) {
+        if (std::string_view(" -_.").find(c) != std::string_view::npos) {
+            is_separated = true;
+            continue;
+        }
+        if (is_separated && !form.empty() && is_digit(form.back()) && is_digit(c)) {
+            form += ' ';
+        }
+        is_separated = false;
+        form += c;
+    }
+    return form;
+}
+
 }  // namespace
 
 void ParticipantsReader::read() {
@@ -323,9 +342,7 @@ void ParticipantsReader::ask_about_similar_ids() {
     // One laboratory under two ids would count twice, and be missing where the other id reports.
     std::map<std::string, std::string_view> known;
     for (const gum::ComparisonParticipant& participant : reading_.job.participants) {
-        std::string form = text::in_small_letters(participant.id);
-        std::erase_if(form, [](char c) { return std::string_view(" -_.").find(c) != std::string_view::npos; });
-        const auto [first, is_new] = known.try_emplace(std::move(form), participant.id);
+        const auto [first, is_new] = known.try_emplace(spelling_apart(participant.id), participant.id);
         if (!is_new) {
             reading_.problems.warn(k_warn_similar_participants, root_.where("participants"),
                                    "the participants " + text::in_quotes(first->second) + " and " +
@@ -402,7 +419,7 @@ void ParticipantsReader::read_row(const CsvTable& table, std::size_t row, bool w
     }
     const auto item = item_of(text_of(table, row, c_item), place_of(c_item));
     const auto round = round_of(text_of(table, row, c_round), place_of(c_round));
-    if (item && items_are_read_) {
+    if (item && items_are_read_ && is_stated(table, row, c_value)) {  // a missing result is in no unit
         const gum::ComparisonItem& stated = reading_.job.items[*item];
         check_unit_of_row(table, row, c_unit, stated.unit,
                           stated.id.empty() ? "the comparison" : "the item " + text::in_quotes(stated.id), problems);

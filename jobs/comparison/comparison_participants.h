@@ -70,7 +70,9 @@ private:
         c_group,
         c_cmc,
     };
-    static constexpr UncertaintyColumns k_uncertainty_columns{.u = c_u, .U = c_U, .k = c_k, .nu = c_nu, .bare = c_bare};
+    static constexpr std::array<std::string_view, 1> k_idle_columns{"name"};
+    static constexpr UncertaintyColumns k_uncertainty_columns{
+        .u = c_u, .U = c_U, .k = c_k, .nu = c_nu, .bare = c_bare, .idle = k_idle_columns};
 
     void read_items();
     void read_rounds();

@@ -244,14 +244,16 @@ bool names_uncertainty(std::string_view header) {
 }
 
 /// Columns that would be used under another name: what they say must not be lost behind a warning.
-bool check_unused_columns(const CsvTable& table, bool states_uncertainty, ProblemList& problems) {
+bool check_unused_columns(const CsvTable& table, const UncertaintyColumns& columns, bool states_uncertainty,
+                          ProblemList& problems) {
     const std::vector<std::string_view> missing = table.missing_columns();
     bool is_fine = true;
     for (const CsvCell& header : table.unused_columns()) {
         const std::string small = text::in_small_letters(header.text);
         // One letter may be a quantity of its own: N beside n, S beside s.
         const auto twin = std::find_if(missing.begin(), missing.end(), [&](std::string_view name) {
-            return name.size() > 1 && text::in_small_letters(name) == small;
+            return name.size() > 1 && name != k_bare_key && text::in_small_letters(name) == small &&
+                   std::find(columns.idle.begin(), columns.idle.end(), name) == columns.idle.end();
         });
         if (twin != missing.end()) {
             problems.refuse(
@@ -271,6 +273,23 @@ bool check_unused_columns(const CsvTable& table, bool states_uncertainty, Proble
     return is_fine;
 }
 
+/// Spreadsheets pad cells, with blanks that do not break as well.
+std::string_view without_blanks_around(std::string_view text) {
+    constexpr std::string_view k_no_break = "\xC2\xA0";
+    for (std::size_t before = text.size() + 1; before != text.size();) {
+        before = text.size();
+        for (const std::string_view blank : {std::string_view(" "), std::string_view("\t"), k_no_break}) {
+            text.remove_prefix(text.starts_with(blank) ? blank.size() : 0);
+            text.remove_suffix(text.ends_with(blank) ? blank.size() : 0);
+        }
+    }
+    return text;
+}
+
+bool is_dash(std::string_view text) {
+    return text == "-" || text == "–" || text == "—";
+}
+
 /// Whether a number means the same in both units.
 bool is_same_unit(const gum::Unit& a, const gum::Unit& b) {
     return gum::of_one_kind(a, b) && a.to_si(0.0) == b.to_si(0.0) &&
@@ -281,13 +300,14 @@ bool is_same_unit(const gum::Unit& a, const gum::Unit& b) {
 
 void check_unit_of_row(const CsvTable& table, std::size_t row, std::size_t column, const gum::Unit& wanted,
                        std::string_view of, ProblemList& problems) {
-    if (!is_stated(table, row, column) || table.cell(row, column).text == wanted.text()) {
+    if (!is_stated(table, row, column)) {
         return;
     }
     const CsvCell& cell = table.cell(row, column);
-    bool is_same = false;
+    const std::string_view unit = without_blanks_around(cell.text);
+    bool is_same = unit.empty() || unit == wanted.text() || is_dash(unit);  // a dash states nothing
     try {
-        is_same = is_same_unit(gum::Unit::parse(cell.text), wanted);
+        is_same = is_same || is_same_unit(gum::Unit::parse(unit), wanted);
     } catch (const gum::InputError&) {
         is_same = false;  // what is no unit is not that of the values
     }
@@ -306,7 +326,7 @@ bool check_uncertainty_columns(const CsvTable& table, const UncertaintyColumns& 
     }
     const bool states_uncertainty =
         has_others || table.has_column(columns.u) || table.has_column(columns.U) || table.has_column(columns.bare);
-    if (!check_unused_columns(table, states_uncertainty, problems)) {
+    if (!check_unused_columns(table, columns, states_uncertainty, problems)) {
         return false;
     }
     if (table.has_column(columns.bare)) {

@@ -141,6 +141,8 @@ void for_each_object(const ComparisonReading& reading, const nlohmann::json& arr
 /// Columns of a table that state uncertainties: positions as CsvTable knows them.
 struct UncertaintyColumns {
     std::size_t u = 0, U = 0, k = 0, nu = 0, bare = 0;
+    /// Columns that change no number: in other capitals they are left out with a warning.
+    std::span<const std::string_view> idle = {};
 };
 /// Refuses columns that no row can use: a bare uncertainty, U without k; and columns that are not used, but would be under
 /// another name: a known one in other capitals, or an uncertainty where the table has none that is known.

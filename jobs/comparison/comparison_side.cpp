@@ -22,6 +22,8 @@ constexpr std::array<std::string_view, 10> k_optional_side_columns{
     "direction", "position", "value", "u", "U", "k", "nu", "u_common", "uncertainty", "unit"};
 enum Column : std::size_t { c_point, c_direction, c_position, c_value, c_u, c_U, c_k, c_nu, c_common, c_bare, c_unit };
 constexpr UncertaintyColumns k_uncertainty_columns{.u = c_u, .U = c_U, .k = c_k, .nu = c_nu, .bare = c_bare};
+// A budget states them, and a table beside it may name points only.
+constexpr std::array<std::string_view, 5> k_columns_of_budget{"value", "nu", "u_common", "uncertainty", "unit"};
 
 bool are_too_many_points(std::size_t points, const std::string& where, ProblemList& problems) {
     if (points <= k_most_side_points) {
@@ -186,8 +188,12 @@ private:
         side_.problems = &problems;
         const auto table =
             read_csv_table(std::move(file->bytes), k_required_side_columns, k_optional_side_columns, problems);
+        UncertaintyColumns columns = k_uncertainty_columns;
+        if (side_.has_budget) {
+            columns.idle = k_columns_of_budget;
+        }
         if (!table ||
-            !check_uncertainty_columns(*table, k_uncertainty_columns, problems,
+            !check_uncertainty_columns(*table, columns, problems,
                                        side_.has_budget || side_.covariance_name.has_value()) ||
             are_too_many_points(table->rows(), text::visible(problems.file()), problems) ||
             !check_columns(*table, problems)) {

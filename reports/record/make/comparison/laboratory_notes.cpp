@@ -129,7 +129,11 @@ bool checks_are_of_another_size(const gum::ItemResult& item) {
     const double mean = item.homogeneity->mean;
     const double smaller = std::min(std::abs(mean), std::abs(item.value));
     const double larger = std::max(std::abs(mean), std::abs(item.value));
-    return std::abs(mean - item.value) > k_many_sigma * sigma &&
+    // Differences from a standard scatter as the items do about a small mean. In another unit the mean would be as many
+    // times too small as the scatter is.
+    const bool are_differences =
+        smaller == std::abs(mean) && item.homogeneity->s_x * larger > k_factor * sigma * smaller;
+    return !are_differences && std::abs(mean - item.value) > k_many_sigma * sigma &&
            (larger > k_factor * smaller || mean * item.value < 0.0);
 }
 

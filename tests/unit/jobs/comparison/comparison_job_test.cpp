@@ -249,6 +249,13 @@ TEST(ComparisonJob, TakesAColumnOfUnitsThatAreThoseOfTheValues) {
           "participant,item,value,u,unit\nA,d,1,1,um\nB,d,2,1,µm\nC,d,3,1,\nA,w,1,1,ug/g\nB,w,2,1,mg kg-1\n"}});
     EXPECT_EQ(job.results.size(), 5U);
     EXPECT_EQ(test::texts(job.warnings), "");
+
+    // Cells are padded, a dash states nothing, and a result that is missing is in no unit.
+    const ComparisonJob padded = read_comparison(
+        R"j("unit": "mg", "participants": {"file": "r.csv"})j",
+        {{"r.csv", "participant,value,u,unit\nA,1,1, mg\nB,2,1,mg \nC,3,1,mg\xC2\xA0\nD,3,1,-\nE,,,n/a\nF,,,g\n"}});
+    EXPECT_EQ(padded.results.size(), 4U);
+    EXPECT_EQ(padded.missing.size(), 2U);
 }
 
 TEST(ComparisonJob, TakesAReasonBesideAValueWhoseContributionIsStated) {
@@ -279,6 +286,11 @@ TEST(ComparisonJob, WarnsOfWhatAPersonShouldLookAt) {
     EXPECT_THAT(codes(c, {{"r.csv", "participant,value,u\nA,1,1\nB,1,1\nC,,1\n"}}), ElementsAre("GC-WARN-0023"));
     EXPECT_THAT(codes(c, {{"r.csv", "participant,value,u\nLab 1,1,1\nlab-1,1,1\nLab 10,1,1\nL,1,1\n"}}),
                 ElementsAre("GC-WARN-0025"));
+    EXPECT_THAT(codes(c, {{"r.csv", "participant,value,u\n1-11,1,1\n11-1,1,1\n111,1,1\n"}}), ElementsAre())
+        << "numbers of several parts are no spellings of each other";
+    EXPECT_THAT(codes(c, {{"r.csv", "participant,value,u,Name,Uncertainty\nA,1,1,Ann,k = 2\nB,1,1,Ben,k = 2\n"}}),
+                ElementsAre("GC-WARN-0001", "GC-WARN-0001"))
+        << "they change no number";
     EXPECT_THAT(codes(k_three_laboratories + R"(, "assigned_value": {"value": 10})"), ElementsAre("GC-WARN-0022"));
     EXPECT_THAT(codes(k_three_laboratories + R"(, "assigned_value": {"method": "median", "power": 1})"),
                 ElementsAre("GC-WARN-0006"));
@@ -377,6 +389,14 @@ TEST(ComparisonJob, MatchesDirectionsWithThePointsOfABudget) {
         read_comparison(R"("unit": "um", "lab": "lab.csv", "reference": {"budget": "b.json"})", files);
     EXPECT_THAT(job.methods->reference.budget_points, ElementsAre(1, 2, 0, 3));
     EXPECT_EQ(job.methods->correlation, MethodCorrelation::unknown);
+    // Of a table beside a budget only the points are used: a unit is perhaps that of their positions.
+    files["p.csv"] = "point,direction,position,Unit,Value\nP1,x,0,mm,2\nP1,y,0,mm,2\nP2,x,90,mm,2\nP2,y,90,mm,2\n";
+    const ComparisonJob places = read_comparison(
+        R"("unit": "um", "lab": "lab.csv", "reference": {"points": "p.csv", "budget": "b.json"})", files);
+    EXPECT_EQ(places.methods->points.size(), 4U);
+    const std::string told = test::texts(places.warnings);
+    EXPECT_THAT(told, HasSubstr("the column \"Unit\" is not used"));
+    EXPECT_THAT(told, HasSubstr("the column \"Value\" is not used"));
 }
 
 TEST(ComparisonJob, ComparesTwoBudgetsWithoutPoints) {

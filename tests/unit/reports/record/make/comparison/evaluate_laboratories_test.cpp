@@ -437,6 +437,9 @@ TEST(EvaluateLaboratories, ItemsThatDifferAndDrift) {
     EXPECT_TRUE(says("GC-COMPARE-0132")) << "in another unit";
     job.items[0].homogeneity = -homogeneity;
     EXPECT_TRUE(says("GC-COMPARE-0132")) << "with the other sign";
+    job.items[0].homogeneity = homogeneity.array() - homogeneity(0, 0);
+    job.items[0].stability = stability.array() - homogeneity(0, 0);
+    EXPECT_FALSE(says("GC-COMPARE-0132")) << "differences from an item, in the unit of the results";
     // Deviations about 0 differ by many times themselves, and by little in terms of sigma_pt.
     job.items[0].homogeneity = homogeneity.array() - 9.9;
     job.items[0].stability = stability.array() - 9.9;
