@@ -25,6 +25,20 @@ CertificateData data_of_section(const CertificateData& data, std::string_view se
     return own;
 }
 
+namespace {
+
+bool states_nothing(const Method& method) {
+    return method.identification.empty() && method.version.empty() && method.title.empty() &&
+           method.description.empty() && method.standard.empty() && method.deviations.empty();
+}
+
+bool is_same(const Item& a, const Item& b) {
+    return a.description == b.description && a.manufacturer == b.manufacturer && a.type == b.type &&
+           a.serial_number == b.serial_number && a.identification == b.identification;
+}
+
+}  // namespace
+
 StatedBySections stated_by_sections(const CertificateData& data, const std::vector<CertifiedTable>& tables) {
     const auto each_states = [&](const auto& states) {
         return !tables.empty() && std::all_of(tables.begin(), tables.end(), [&](const CertifiedTable& table) {
@@ -35,7 +49,7 @@ StatedBySections stated_by_sections(const CertificateData& data, const std::vect
     };
     return {.item = data.item.serial_number.empty() && data.item.identification.empty() &&
                     each_states([](const SectionData& section) { return section.item.has_value(); }),
-            .method = data.method.identification.empty() &&
+            .method = states_nothing(data.method) &&
                       each_states([](const SectionData& section) { return section.method.has_value(); }),
             .conditions = data.conditions.empty() &&
                           each_states([](const SectionData& section) { return !section.conditions.empty(); })};
@@ -50,7 +64,9 @@ std::vector<const Item*> items_of(const CertificateData& data) {
         items.push_back(&data.item);
     }
     for (const SectionData& section : data.sections) {
-        if (section.item) {
+        // Several sections may be of one item.
+        if (section.item && std::none_of(items.begin(), items.end(),
+                                         [&](const Item* known) { return is_same(*known, *section.item); })) {
             items.push_back(&*section.item);
         }
     }

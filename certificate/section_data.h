@@ -22,7 +22,8 @@ struct StatedBySections {
 [[nodiscard]] StatedBySections stated_by_sections(const CertificateData& data,
                                                   const std::vector<CertifiedTable>& tables);
 
-/// What the results are of: the item of the certificate, where it states one, then those of the sections.
+/// What the results are of: the item of the certificate, where it states one, then those of the sections, each
+/// once.
 [[nodiscard]] std::vector<const Item*> items_of(const CertificateData& data);
 
 }  // namespace gumcert::certificate

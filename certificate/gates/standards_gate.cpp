@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -129,8 +130,9 @@ void same_texts(FindingList& found, const CertificateData& data, const StandardU
         all.push_back({"name", s.name.in("en"), item->description.in("en"), "the description of the item",
                        FindingSeverity::minor});
     }
+    std::set<std::string> told;  // of several items once
     for (const SameText& one : all) {
-        if (is_stated(one.text) && letters_of(one.text) == letters_of(one.other)) {
+        if (is_stated(one.text) && letters_of(one.text) == letters_of(one.other) && told.insert(one.what).second) {
             found.add(one.severity, "T08", iso_17025("6.5"), place_in("/standards", i, one.key),
                       named(s) + " has in " + one.key + " the same text as " + one.what,
                       "State each of them as it is.");

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <utility>
+#include <vector>
 
 #include "certificate/address_lines.h"
 #include "certificate/section_data.h"
@@ -170,20 +171,24 @@ void pieces_of_set(DccWriter& w, const std::string& item, bool has_numbers_of_cu
     w.xml.close();
 }
 
+/// "Condition on receipt: No damage seen", a fact a line.
+Text facts_in_lines(const Wording& words, const std::vector<std::pair<const char*, Text>>& facts) {
+    Text lines;
+    for (const auto& [label, value] : facts) {
+        if (!value.empty()) {
+            lines += (lines.empty() ? Text() : Text("\n")) + words("certificate", label) + ": " + value;
+        }
+    }
+    return lines;
+}
+
 /// \param id  "" for one that no result is of
 void item(DccWriter& w, const certificate::Item& i, const std::string& id) {
     const Wording& words = w.words();
     w.xml.open("dcc:item", {{"id", id}});
     w.text("dcc:name", words.localised(i.description));
-    Text description;
-    const auto line = [&](const char* label, const Text& value) {
-        if (!value.empty()) {
-            description += (description.empty() ? Text() : Text("\n")) + words("certificate", label) + ": " + value;
-        }
-    };
-    line("condition", words.localised(i.condition));
-    line("owner", i.owner);
-    w.optional_text("dcc:description", description);
+    w.optional_text("dcc:description",
+                    facts_in_lines(words, {{"condition", words.localised(i.condition)}, {"owner", i.owner}}));
     if (!without_outer_blanks(i.manufacturer).empty()) {
         w.xml.open("dcc:manufacturer");
         w.text("dcc:name", i.manufacturer);
@@ -221,7 +226,12 @@ void items(DccWriter& w) {
         });
     const certificate::Item& of_all = w.data().item;
     if (certificate::stated_by_sections(w.data(), w.all_tables()).item) {
-        w.optional_text("dcc:name", w.words().localised(of_all.description));
+        const Wording& words = w.words();
+        w.optional_text("dcc:name", words.localised(of_all.description));
+        w.optional_text("dcc:description", facts_in_lines(words, {{"condition", words.localised(of_all.condition)},
+                                                                  {"owner", of_all.owner},
+                                                                  {"manufacturer", of_all.manufacturer},
+                                                                  {"type", of_all.type}}));
     } else {
         item(w, of_all, is_of_results ? "item_1" : "");
     }

@@ -40,9 +40,9 @@ std::string items_on_label(const certificate::Certificate& certificate, const Wo
     constexpr std::size_t k_most = 3;
     std::string text;
     std::size_t count = 0;
-    for (const certificate::SectionData& section : data.sections) {
-        if (section.item && ++count <= k_most) {
-            text += (text.empty() ? "" : "; ") + item_on_label(*section.item, words);
+    for (const certificate::Item* item : certificate::items_of(data)) {
+        if (item != &data.item && ++count <= k_most) {
+            text += (text.empty() ? "" : "; ") + item_on_label(*item, words);
         }
     }
     return count > k_most ? text + " \u2026" : text;

@@ -14,10 +14,6 @@ namespace {
 
 using nlohmann::json;
 
-bool is_digit(char c) {
-    return c >= '0' && c <= '9';
-}
-
 /// The number that begins at `at`, which is moved behind it.
 std::optional<std::size_t> number_at(std::string_view text, std::size_t& at) {
     std::size_t number = 0;
@@ -52,16 +48,53 @@ constexpr std::array<std::string_view, 9> k_tables{"tables", "table", "tabellen"
                                                    "tabla",  "表格",  "附表",     "表"};
 constexpr std::array<std::string_view, 15> k_between{"and", "und", "to", "bis", "y", "e", "a", "及",
                                                      "與",  "和",  "至", "、",  ",", "-", "–"};
-/// What says that a table may be one of another document.
-constexpr std::array<std::string_view, 16> k_documents{
-    "certificate", "report",   "annex",    "appendix", "schein", "zertifikat", "bericht", "anhang",
-    "anlage",      "document", "dokument", "informe",  "anexo",  "證書",       "報告",    "附件"};
+// What may stand beside the numbers of own tables. Anything else may speak of another document: in how many ways that can
+// be done nobody knows, so that words are allowed and not forbidden.
+constexpr std::string_view k_words =
+    " see the results result values as found before adjustment are is in stand stated given shown listed of and to"
+    " siehe die der den werte ergebnisse vor bei eingang justierung stehen steht sind im angegeben und bis"
+    " ver v\u00e9ase v\u00e9anse los las la el resultados resultado valores antes del ajuste a y recepci\u00f3n "
+    "est\u00e1n"
+    " est\u00e1 se indican figuran en de e ";
+constexpr std::array<std::string_view, 34> k_signs{
+    "見", "請", "詳", "參", "閱", "如", "列", "於", "在", "為", "之", "的", "所", "示", "載", "調", "整",
+    "前", "結", "果", "收", "件", "狀", "態", "第", "及", "與", "和", "至", "、", "。", "，", "“",  "”"};
 
-/// Numbers of the tables with results in the view of a document.
+bool is_of_word(char c) {
+    const auto byte = static_cast<unsigned char>(c);
+    return (c >= 'a' && c <= 'z') || (byte >= 0xC3 && byte < 0xE0) || (byte >= 0x80 && byte < 0xC0);
+}
+
+/// A blank, a sign or a word that may stand beside the numbers of own tables; `at` is moved behind it.
+bool skip_harmless(std::string_view text, std::size_t& at) {
+    const std::size_t begin = at;
+    skip_blanks(text, at);
+    if (at != begin || skip_word(text, at, k_signs)) {
+        return true;
+    }
+    if (std::string_view(".,;:()\"'-").find(text[at]) != std::string_view::npos) {
+        ++at;
+        return true;
+    }
+    while (at < text.size() && is_of_word(text[at])) {
+        ++at;
+    }
+    const std::string word = " " + std::string(text.substr(begin, at - begin)) + " ";
+    return at > begin && k_words.find(word) != std::string_view::npos;
+}
+
+/// Numbers of the tables with results in the view of a document. A draft has one of its findings before them, which the
+/// certificate has not.
 std::vector<std::size_t> tables_with_results(const json& view) {
     std::vector<std::size_t> numbers;
+    std::size_t of_findings = 0;
     for (const json& section : view.at("sections")) {
         const std::string& id = section.at("id").get_ref<const std::string&>();
+        if (id == "findings") {
+            for (const json& block : section.at("blocks")) {
+                of_findings += block.at("table").size();
+            }
+        }
         if (section.at("kind") == "annex" || id == "findings" || id == "traceability" || id == "conditions" ||
             id == "amendment") {
             continue;
@@ -72,7 +105,7 @@ std::vector<std::size_t> tables_with_results(const json& view) {
                 std::size_t at = number.find_first_of("0123456789");
                 const bool of_conditions = table.at("id").get_ref<const std::string&>().starts_with("conditions");
                 if (at != std::string::npos && !of_conditions) {
-                    numbers.push_back(number_at(number, at).value_or(0));
+                    numbers.push_back(number_at(number, at).value_or(0) - of_findings);
                 }
             }
         }
@@ -84,19 +117,13 @@ std::vector<std::size_t> tables_with_results(const json& view) {
 
 std::vector<std::size_t> own_tables_named(std::string_view words) {
     const std::string text = text::in_small_letters(words);
-    for (const std::string_view document : k_documents) {
-        if (text.find(document) != std::string::npos) {
-            return {};
-        }
-    }
     std::vector<std::size_t> named;
     std::size_t at = 0;
     while (at < text.size()) {
-        if (is_digit(text[at])) {
-            return {};
-        }
         if (!skip_word(text, at, k_tables)) {
-            ++at;
+            if (!skip_harmless(text, at)) {
+                return {};
+            }
             continue;
         }
         skip_blanks(text, at);
@@ -105,6 +132,9 @@ std::vector<std::size_t> own_tables_named(std::string_view words) {
         while (const std::optional<std::size_t> number = number_at(text, next)) {
             named.push_back(*number);
             at = next;
+            if (at < text.size() && is_of_word(text[at])) {  // "Table 3a"
+                return {};
+            }
             skip_blanks(text, next);
             skip_word(text, next, k_between);
             skip_blanks(text, next);

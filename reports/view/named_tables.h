@@ -12,7 +12,7 @@
 namespace gumcert::reports {
 
 /// The tables of its own document that a text names in any of the four languages: "Table 2", "see Tables 2 to 4".
-/// \return their numbers; none where the text also speaks of another document, "Certificate EX-7, Table 2", or has
+/// \return their numbers; none where the text says more than where the results stand, "Table 2 of the logbook", or has
 ///         numbers that are none of tables: whose tables they are cannot be told then
 [[nodiscard]] std::vector<std::size_t> own_tables_named(std::string_view text);
 

@@ -64,8 +64,12 @@ TEST(SectionData, OfEachSectionStandForThoseOfTheWhole) {
     data.sections.push_back(data.sections[0]);
     data.sections[1].section = "DC";
     EXPECT_TRUE(stated_by_sections(data, of_both).item);
+    EXPECT_EQ(items_of(data).size(), 2U) << "both sections are of one item";
+    data.sections[1].item->serial_number = "SN-3";
     ASSERT_EQ(items_of(data).size(), 3U);
     EXPECT_EQ(items_of(data)[1]->serial_number, "SN-2");
+    data.method.title = "Of all";
+    EXPECT_FALSE(stated_by_sections(data, of_ac).method) << "what is stated of the whole is printed";
     data.item.identification = "INV-1";
     EXPECT_FALSE(stated_by_sections(data, of_both).item) << "the set has a number of its own";
     data.item = {};

@@ -81,5 +81,19 @@ TEST(RegisterGate, OnlyARegisteredSignatoryAuthorises) {
     EXPECT_TRUE(with_register([](CertificateData&, LaboratoryRegister& r) { r.signatories.clear(); }).empty());
 }
 
+TEST(RegisterGate, AsksForTheMethodsOfSectionsWhereTheWholeHasNone) {
+    const auto found = [](const std::string& method) {
+        return with_register([&](CertificateData& data, LaboratoryRegister& r) {
+            SectionData& section = data.sections.emplace_back();
+            section.section = "A";
+            section.method = data.method;
+            r.signatories.front().methods = {method.empty() ? data.method.identification : method};
+            data.method = {};
+        });
+    };
+    EXPECT_TRUE(found("").empty());
+    EXPECT_EQ(found("another method").size(), 1U);
+}
+
 }  // namespace
 }  // namespace gumcert::certificate

@@ -50,6 +50,20 @@ TEST(StandardsGate, FindsStandardsThatRestOnTheCertificateItself) {
     EXPECT_THAT(ids(standard_findings(c)), testing::IsEmpty());
 }
 
+// Items of sections may be of one kind: that a standard is called as they are is told once.
+TEST(StandardsGate, ComparesAStandardWithTheItemsOfSections) {
+    expect_finding(after([](CertificateData& d, StandardUsed& s) {
+                       for (const char* number : {"SN-21", "SN-22"}) {
+                           SectionData& section = d.sections.emplace_back();
+                           section.item = d.item;
+                           section.item->description = "Pressure gauge";
+                           section.item->serial_number = number;
+                       }
+                       s.name = "Pressure gauge";
+                   }),
+                   "T08", clause_of_standard("6.5"), k_minor, "/standards/0/name");
+}
+
 TEST(StandardsGate, FindsAStandardThatStandsTwice) {
     expect_finding(after([](CertificateData& d, StandardUsed&) {
                        d.standards.push_back(d.standards[0]);

@@ -564,6 +564,15 @@ TEST(DccDocument, WritesASectionAsAMeasurementResult) {
     EXPECT_THAT(text, HasSubstr("SN-OTHER"));
     EXPECT_THAT(text, HasSubstr("CP-OTHER"));
     EXPECT_THAT(text, HasSubstr("First part"));
+    EvaluationRecord of_sections = record;
+    certificate::Item& of_all = of_sections.certificate->data.item;
+    of_all.serial_number = of_all.identification = "";
+    of_all.condition = "Seal broken";
+    of_all.manufacturer = "Maker of all";
+    const std::string without = checked(of_sections);
+    EXPECT_THAT(without, testing::Not(HasSubstr("<dcc:item>")));
+    EXPECT_THAT(without, HasSubstr("Seal broken")) << "what is stated of all items, as on the first page";
+    EXPECT_THAT(without, HasSubstr("Maker of all"));
     record.sections.push_back({.name = "other", .title = {}, .quantities = {}});
     const std::string two = checked(record);
     EXPECT_THAT(two, HasSubstr("<dcc:measurementResult refId=\"item_1\">")) << "one without an item of its own";

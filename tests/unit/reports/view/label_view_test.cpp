@@ -44,6 +44,21 @@ TEST(Label, OfADraftSaysSo) {
     EXPECT_EQ(label_view(record, wording_in("en"))["mark"][0]["text"], "superseded");
 }
 
+TEST(Label, NamesTheItemsOfSectionsOnce) {
+    EvaluationRecord record = test::certified_budget_record();
+    certificate::Certificate& c = *record.certificate;
+    c.data.item = {};
+    for (const char* name : {"A", "B", "C"}) {
+        certificate::SectionData& section = c.data.sections.emplace_back();
+        section.section = name;
+        section.item.emplace().serial_number = *name == 'C' ? "SN-2" : "SN-1";
+    }
+    for (certificate::CertifiedTable& table : c.tables) {
+        table.section = "A";
+    }
+    EXPECT_EQ(label_view(record, wording_in("en"))["rows"][0]["value"], "SN-1; SN-2");
+}
+
 TEST(Label, CodesTheNumberAndTheRecord) {
     EvaluationRecord record = test::certified_budget_record();
     record.certificate->data.number = "EX-2026-0042";

@@ -18,13 +18,19 @@ TEST(NamedTables, AreThoseOfTheDocumentItself) {
     EXPECT_THAT(own_tables_named("Tabellen 3, 4 und 6"), ElementsAre(3, 4, 6));
     EXPECT_THAT(own_tables_named("véanse las tablas 3 a 5."), ElementsAre(3, 5));
     EXPECT_THAT(own_tables_named("如表 3 及表 4"), ElementsAre(3, 4));
+    EXPECT_THAT(own_tables_named("siehe Tabelle 4 (Bei Eingang)"), ElementsAre(4));
+    EXPECT_THAT(own_tables_named("Véase la tabla 2."), ElementsAre(2));
+    EXPECT_THAT(own_tables_named("調整前之結果列於表 2。"), ElementsAre(2));
     EXPECT_THAT(own_tables_named("Table 2 are the results as found"), ElementsAre(2));
 }
 
 TEST(NamedTables, OfAnotherDocumentAreNotLookedFor) {
     for (const char* text :
          {"Table 2 of certificate EX-7", "Kalibrierschein vom Eingang, Tabelle 9", "Table 2 of the work order 2026-11",
-          "informe anterior, tabla 9", "證書之表 9", "EX-2026-0041, Table 1"}) {
+          "informe anterior, tabla 9", "證書之表 9", "EX-2026-0041, Table 1", "Tabla 9 del certificado anterior",
+          "Vorherige Kalibrierung, Tabelle 9", "table 9 of the previous calibration", "Messprotokoll, Tabelle 9",
+          "As found: table 5 of the logbook", "列於前次校正之表 9", "Acta de calibración previa, tabla 9",
+          "Table 3a"}) {
         EXPECT_THAT(own_tables_named(text), IsEmpty()) << text;
     }
     for (const char* text : {"", "They are stated with those after it.", "Not measured: the item did not work.",
@@ -70,6 +76,13 @@ TEST(NamedTables, HaveResults) {
         EXPECT_EQ(found[0].severity, certificate::FindingSeverity::critical);
         EXPECT_THAT(found[0].what, testing::HasSubstr("table " + std::to_string(number) + ", and tables 3 to 6"));
     }
+    // A draft has a table of its findings before them, which the certificate will not have.
+    const nlohmann::json draft{
+        {"sections",
+         {section("findings", "", {{"findings", "Table 1"}}), section("conditions", "", {{"conditions", "Table 3"}}),
+          section("certified_results", "", {{"certified-0", "Table 4"}})}}};
+    EXPECT_THAT(findings_on_named_tables(adjusted("Table 3"), draft, {"en"}), IsEmpty());
+    EXPECT_THAT(findings_on_named_tables(adjusted("Table 4"), draft, {"en"}), testing::SizeIs(1));
     const nlohmann::json one{{"sections", {section("certified_results", "", {{"certified-0", "Tabelle 3"}})}}};
     ASSERT_THAT(findings_on_named_tables(adjusted("Tabelle 4"), one, {"de"}), testing::SizeIs(1));
     EXPECT_THAT(findings_on_named_tables(adjusted("Tabelle 4"), one, {"de"})[0].what,
