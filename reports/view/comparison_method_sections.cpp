@@ -1,6 +1,5 @@
 #include "reports/view/comparison_method_sections.h"
 
-#include "certificate/statement_of_uncertainty.h"
 #include "gum/quantity/unit.h"
 #include "gum/rounding.h"
 #include "reports/plots/comparison_plots.h"
@@ -442,9 +441,7 @@ void reference_comparison_section(CertificateBuilder& builder, const Wording& wo
     // A certificate for another probability prints U(x) for that one beside U(D) for this one.
     if (std::any_of(c.points.begin(), c.points.end(),
                     [](const ComparisonPoint& p) { return p.U_of_scores.number || p.reference_U_of_scores; })) {
-        const std::string of_scores = certificate::printed_coverage_probability(c.score_probability) + " %";
-        rows.emplace_back(words("comparison", "expanded_differences_label"),
-                          words.filled("comparison", "expanded_differences_text", {{"p", words.number(of_scores)}}));
+        add_probability_of_differences(rows, words, c);
     }
     builder.definitions(rows);
     if (gravest(c) != nullptr) {

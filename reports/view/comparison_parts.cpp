@@ -1,5 +1,6 @@
 #include "reports/view/comparison_parts.h"
 
+#include "certificate/statement_of_uncertainty.h"
 #include "gum/quantity/unit.h"
 #include "reports/printed_texts.h"
 
@@ -104,6 +105,12 @@ void remarks_section(CertificateBuilder& builder, const Wording& words, const Co
     for (const std::string& remark : comparison.remarks) {
         builder.paragraph(words.sentence(remark));
     }
+}
+
+void add_probability_of_differences(Facts& facts, const Wording& words, const Comparison& comparison) {
+    const std::string probability = certificate::printed_coverage_probability(comparison.score_probability) + " %";
+    add_fact(facts, words("comparison", "expanded_differences_label"),
+             words.filled("comparison", "expanded_differences_text", {{"p", words.number(probability)}}));
 }
 
 Text some_of(const Wording& words, const std::vector<std::string>& names) {

@@ -44,6 +44,10 @@ void shared_sources_table(CertificateBuilder& builder, const Wording& words, con
 /// What the record remarks on the comparison; nothing where it has no remarks.
 void remarks_section(CertificateBuilder& builder, const Wording& words, const Comparison& comparison);
 
+/// That expanded uncertainties of differences, U(D), are those of E_n, with the coverage probability of the scores: where U(x)
+/// beside them is for another one.
+void add_probability_of_differences(Facts& facts, const Wording& words, const Comparison& comparison);
+
 /// The first names of a list with the number of the others: "A, B, C and 17 more".
 [[nodiscard]] Text some_of(const Wording& words, const std::vector<std::string>& names);
 

@@ -40,10 +40,8 @@ Facts conventions(const Wording& words, const EvaluationRecord& record) {
         {words("comparison", "expanded_label"),
          words.filled("comparison", "expanded_text", {{"p", words.number(record.coverage_probability.text)}})}};
     // U(D) stands in a table with U(x): where they are for different probabilities, that must be said beside them.
-    const std::string of_scores = certificate::printed_coverage_probability(c.score_probability) + " %";
-    if (of_scores != record.coverage_probability.text) {
-        facts.push_back({words("comparison", "expanded_differences_label"),
-                         words.filled("comparison", "expanded_differences_text", {{"p", words.number(of_scores)}})});
+    if (certificate::printed_coverage_probability(c.score_probability) + " %" != record.coverage_probability.text) {
+        add_probability_of_differences(facts, words, c);
     }
     return facts;
 }
