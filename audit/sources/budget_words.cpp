@@ -4,6 +4,7 @@
 #include <array>
 #include <string>
 #include <unordered_map>
+#include <utility>
 
 #include "audit/sources/table_units.h"
 #include "audit/stated_number.h"
@@ -742,11 +743,13 @@ std::optional<Column> column_of(std::string_view head) {
     }
     const std::string_view bare = without_unit(head);
     const std::string_view texts[] = {head, trimmed(without_brackets(head)), bare, trimmed(without_brackets(bare))};
-    for (const std::string_view& text : texts) {
+    std::size_t length = std::string_view::npos;
+    for (const std::string_view text : texts) {
         // Most heads have neither unit nor brackets, and are four times the same.
-        const bool is_again = &text != &texts[0] && text.size() == (&text - 1)->size();
-        if (const std::optional<Column> column = is_again ? std::nullopt : meaning_of_head(text)) {
-            return column;
+        if (text.size() != std::exchange(length, text.size())) {
+            if (const std::optional<Column> column = meaning_of_head(text)) {
+                return column;
+            }
         }
     }
     for (const std::string_view text : texts) {  // "Half-width a or U": both are what is divided
