@@ -147,9 +147,9 @@ std::string action_of_range(const Measured& measured) {
     return measured.is_place
                ? "Hold the range against the result (\"of\": \"value\"), or state the true parameter."
                : "Where the result is an error, a deviation, a correction or a hysteresis, state its role in the "
-                 "outputs "
-                 "of the job, and at least one point (\"points\"): it is then held against the place where it was "
-                 "measured. Else hold the range against the result (\"of\": \"value\"), or state the true parameter.";
+                 "outputs of the job, and at least one point (\"points\"): it is then held against the place where it "
+                 "was measured. Else hold the range against the result (\"of\": \"value\"), or state the true "
+                 "parameter.";
 }
 
 std::optional<Finding> capability_taken_elsewhere(const ScopeEntry& entry, std::size_t i,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <utility>
 
 #include "text/numbers.h"
@@ -56,7 +57,7 @@ private:
             case Operation::number:
                 return WrittenProduct{.factor = node.value};
             case Operation::pi:
-                return WrittenProduct{.factor = 3.14159265358979323846};
+                return WrittenProduct{.factor = std::numbers::pi};
             case Operation::quantity:
                 return of_name_(node.name);
             case Operation::negate:
