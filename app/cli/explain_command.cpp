@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "app/cli/terminal/share_folder.h"
-#include "app/limits.h"
+#include "evaluation/limits.h"
 #include "evaluation/read_file.h"
 #include "gum/quantity/diagnostic.h"
 #include "reports/message_explanation.h"
@@ -65,14 +65,14 @@ ExitCode explain(const std::vector<std::string>& words, const std::string& share
 }
 
 ExitCode list_limits() {
-    const std::vector<app::Limit> limits = app::limits();
+    const std::vector<evaluation::Limit> limits = evaluation::limits();
     std::size_t width = 0;
-    for (const app::Limit& limit : limits) {
+    for (const evaluation::Limit& limit : limits) {
         width = std::max(width, limit.value().size());
     }
     std::string text;
     std::string_view last;
-    for (const app::Limit& limit : limits) {
+    for (const evaluation::Limit& limit : limits) {
         if (limit.applies_to != last) {
             text += (last.empty() ? "" : "\n") + std::string(limit.applies_to) + ":\n";
             last = limit.applies_to;

@@ -19,13 +19,13 @@
 #include "app/cli/terminal/interruption.h"
 #include "app/cli/terminal/share_folder.h"
 #include "app/cli/terminal/terminal.h"
-#include "app/laboratory_overview.h"
 #include "archive/archive.h"
 #include "archive/certificates/affected_certificates.h"
 #include "archive/certificates/archive_replay.h"
 #include "archive/certificates/shared_work.h"
 #include "archive/store/open_store.h"
 #include "archive/store/work_table.h"
+#include "evaluation/laboratory_overview.h"
 #include "evaluation/read_file.h"
 #include "evaluation/recompute_record.h"
 #include "outputs/output_files.h"
@@ -141,7 +141,7 @@ void require_query(const ArchiveOptions& options) {
         }
     }
     for (const std::string* const day : {&options.since, &options.until}) {
-        if (!day->empty() && !app::is_day(*day)) {
+        if (!day->empty() && !evaluation::is_day(*day)) {
             refuse_usage("archive affected", *day + " is no day", "a day is written as 2026-11-21", "correct it");
         }
     }

@@ -22,7 +22,7 @@
 #include <vector>
 
 #include "app/cli/terminal/terminal.h"
-#include "app/limits.h"
+#include "evaluation/limits.h"
 #include "system/ceilings.h"
 #include "system/cleanup.h"
 
@@ -222,13 +222,13 @@ CommonOptions with_walls(CommonOptions common, const std::vector<std::filesystem
     for (const std::filesystem::path& file : files) {
         std::error_code error;
         const std::uint64_t size = std::filesystem::file_size(file, error);
-        const std::uint64_t own = error ? 1 : 1 + size / app::k_wall_step;
+        const std::uint64_t own = error ? 1 : 1 + size / evaluation::k_wall_step;
         steps += own;
         most = std::max(most, own);
     }
-    common.memory_limit =
-        common.memory_limit.value_or(most * app::k_wall_memory + files.size() * app::k_wall_memory_of_file);
-    common.time_limit = common.time_limit.value_or(std::max<std::uint64_t>(steps, 1) * app::k_wall_time);
+    common.memory_limit = common.memory_limit.value_or(most * evaluation::k_wall_memory +
+                                                       files.size() * evaluation::k_wall_memory_of_file);
+    common.time_limit = common.time_limit.value_or(std::max<std::uint64_t>(steps, 1) * evaluation::k_wall_time);
     return common;
 }
 

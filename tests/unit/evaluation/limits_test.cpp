@@ -1,4 +1,4 @@
-#include "app/limits.h"
+#include "evaluation/limits.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include "jobs/file_source.h"
 #include "jobs/job_limits.h"
 
-namespace gumcert::app {
+namespace gumcert::evaluation {
 namespace {
 
 TEST(Limits, AreToldOnceAndTogether) {
@@ -38,4 +38,4 @@ TEST(Limits, AreThoseThatRefuse) {
 }
 
 }  // namespace
-}  // namespace gumcert::app
+}  // namespace gumcert::evaluation

@@ -1,4 +1,4 @@
-#include "app/limits.h"
+#include "evaluation/limits.h"
 
 #include "evaluation/read_file.h"
 #include "jobs/budget/budget_job_statement.h"
@@ -17,7 +17,7 @@
 #include "signing/document_limits.h"
 #include "workbook/limits.h"
 
-namespace gumcert::app {
+namespace gumcert::evaluation {
 
 namespace {
 
@@ -106,4 +106,4 @@ std::vector<Limit> limits() {
     };
 }
 
-}  // namespace gumcert::app
+}  // namespace gumcert::evaluation

@@ -1,4 +1,4 @@
-#include "app/laboratory_overview.h"
+#include "evaluation/laboratory_overview.h"
 
 #include <algorithm>
 #include <array>
@@ -18,7 +18,7 @@
 #include "text/utf8.h"
 #include "text/visible_text.h"
 
-namespace gumcert::app {
+namespace gumcert::evaluation {
 
 namespace {
 
@@ -251,4 +251,4 @@ std::string overview_csv(const LaboratoryOverview& overview) {
     return all;
 }
 
-}  // namespace gumcert::app
+}  // namespace gumcert::evaluation

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace gumcert::app {
+namespace gumcert::evaluation {
 
 /// One line of an overview: a standard, a signatory or the accreditation. Texts are "" where nothing is stated.
 struct OverviewRow {
@@ -47,4 +47,4 @@ struct LaboratoryOverview {
 /// One table of all, its first column says what a row is.
 [[nodiscard]] std::string overview_csv(const LaboratoryOverview& overview);
 
-}  // namespace gumcert::app
+}  // namespace gumcert::evaluation

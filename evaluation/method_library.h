@@ -6,7 +6,7 @@
 
 #include "outputs/output_files.h"
 
-namespace gumcert::app {
+namespace gumcert::evaluation {
 
 /// A calibration that comes with the program: a folder with a job that runs.
 struct Method {
@@ -30,4 +30,4 @@ struct Method {
 /// \throws gum::StorageError  GC-STORE-0007 if there is something in the folder already; and nothing is written
 std::vector<std::filesystem::path> begin_with(const Method& method, const std::filesystem::path& folder);
 
-}  // namespace gumcert::app
+}  // namespace gumcert::evaluation

@@ -1,4 +1,4 @@
-#include "app/laboratory_overview.h"
+#include "evaluation/laboratory_overview.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 #include "gum/quantity/diagnostic.h"
 
-namespace gumcert::app {
+namespace gumcert::evaluation {
 namespace {
 
 const std::filesystem::path k_laboratory = std::filesystem::path(GUMCERT_SOURCE_DIR) / "examples/laboratory/laboratory";
@@ -67,4 +67,4 @@ TEST(LaboratoryOverview, ADayIsOneOfUtcOrBesideIt) {
 }
 
 }  // namespace
-}  // namespace gumcert::app
+}  // namespace gumcert::evaluation

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-namespace gumcert::app {
+namespace gumcert::evaluation {
 
 // What commands that read files of others may take where nothing is asked for, for every step begun of a file.
 inline constexpr std::uint64_t k_wall_step = 10'000'000;                 ///< [byte]
@@ -28,4 +28,4 @@ struct Limit {
 /// docs/job_keys.md.
 [[nodiscard]] std::vector<Limit> limits();
 
-}  // namespace gumcert::app
+}  // namespace gumcert::evaluation

@@ -1,4 +1,4 @@
-#include "app/method_library.h"
+#include "evaluation/method_library.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 #include "gum/quantity/diagnostic.h"
 
-namespace gumcert::app {
+namespace gumcert::evaluation {
 namespace {
 
 namespace fs = std::filesystem;
@@ -52,4 +52,4 @@ TEST(MethodLibrary, OfADamagedListIsRefused) {
 }
 
 }  // namespace
-}  // namespace gumcert::app
+}  // namespace gumcert::evaluation

@@ -1,4 +1,4 @@
-#include "app/method_library.h"
+#include "evaluation/method_library.h"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -10,7 +10,7 @@
 #include "gum/quantity/diagnostic.h"
 #include "jobs/input_text.h"
 
-namespace gumcert::app {
+namespace gumcert::evaluation {
 
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
@@ -108,4 +108,4 @@ std::vector<fs::path> begin_with(const Method& method, const fs::path& folder) {
     return written;
 }
 
-}  // namespace gumcert::app
+}  // namespace gumcert::evaluation
