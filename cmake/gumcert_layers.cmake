@@ -17,7 +17,8 @@ set(GUMCERT_LAYER_FOLDERS text encoding system gum/quantity json gum/expression 
                           reports/record/make/rotary_table reports/record/make/circle_closure
                           reports/record/make/certificate reports reports/plots reports/view reports/forms
                           reports/audit reports/studies reports/dcc reports/agreement audit/sources signing imports archive/store archive
-                          outputs evaluation issuing archive/certificates self_test app/cli/terminal app/cli/archive app/cli)
+                          outputs evaluation issuing archive/certificates self_test manual app/cli/terminal
+                          app/cli/archive app/cli)
 
 # Our own layers whose headers a layer may include and whose library it may link.
 set(GUMCERT_EDGES_text)
@@ -132,6 +133,7 @@ set(GUMCERT_EDGES_archive_certificates               text encoding gum/quantity 
                                                      evaluation issuing)
 set(GUMCERT_EDGES_self_test                          text encoding gum/quantity json gum jobs reports/record reports
                                                      reports/view reports/forms evaluation)
+set(GUMCERT_EDGES_manual                             text)
 set(GUMCERT_EDGES_app_cli_terminal                   text encoding system gum/quantity reports/record reports/forms
                                                      archive/store outputs evaluation)
 set(GUMCERT_EDGES_app_cli_archive                    text encoding system gum/quantity signing archive/store archive
@@ -139,7 +141,7 @@ set(GUMCERT_EDGES_app_cli_archive                    text encoding system gum/qu
 set(GUMCERT_EDGES_app_cli                            text encoding gum/quantity certificate/gates audit/rules
                                                      jobs/laboratory reports/record reports/record/make reports
                                                      reports/view reports/forms reports/audit signing imports
-                                                     archive/store archive outputs evaluation issuing self_test
+                                                     archive/store archive outputs evaluation issuing self_test manual
                                                      app/cli/terminal app/cli/archive)
 
 # Headers from outside that a layer may include: a first folder (Eigen) or one file (cholmod.h). The standard library is
@@ -208,6 +210,7 @@ set(GUMCERT_THIRD_PARTY_evaluation                         Eigen gumcert_build_i
 set(GUMCERT_THIRD_PARTY_issuing)
 set(GUMCERT_THIRD_PARTY_archive_certificates               nlohmann)
 set(GUMCERT_THIRD_PARTY_self_test                          nlohmann)
+set(GUMCERT_THIRD_PARTY_manual                             CLI fmt)
 set(GUMCERT_THIRD_PARTY_app_cli_terminal                   fcntl.h fmt gumcert_build_info.h gumcert_templates.h
                                                            nlohmann sys/resource.h unistd.h)
 set(GUMCERT_THIRD_PARTY_app_cli_archive                    fmt gumcert_build_info.h nlohmann)

@@ -3,9 +3,9 @@
 #include <map>
 #include <string>
 
-#include "app/cli/command_description.h"
+#include "manual/command_description.h"
 
-namespace gumcert::cli {
+namespace gumcert::manual {
 
 /// What the manual says beside the command line.
 struct ManualImprint {
@@ -19,4 +19,4 @@ struct ManualImprint {
 [[nodiscard]] std::map<std::string, std::string> manual_pages(const ProgramDescription& program,
                                                               const ManualImprint& imprint);
 
-}  // namespace gumcert::cli
+}  // namespace gumcert::manual

@@ -1,11 +1,11 @@
-#include "app/cli/command_description.h"
+#include "manual/command_description.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
 #include "text/split.h"
 
-namespace gumcert::cli {
+namespace gumcert::manual {
 
 namespace {
 
@@ -57,4 +57,4 @@ ProgramDescription described(const CLI::App& program) {
     return result;
 }
 
-}  // namespace gumcert::cli
+}  // namespace gumcert::manual

@@ -1,4 +1,4 @@
-#include "app/cli/manual_pages.h"
+#include "manual/manual_pages.h"
 
 #include <fmt/core.h>
 
@@ -10,7 +10,7 @@
 
 #include "text/utf8.h"
 
-namespace gumcert::cli {
+namespace gumcert::manual {
 
 namespace {
 
@@ -184,4 +184,4 @@ std::map<std::string, std::string> manual_pages(const ProgramDescription& progra
     return pages;
 }
 
-}  // namespace gumcert::cli
+}  // namespace gumcert::manual

@@ -1,11 +1,11 @@
-#include "app/cli/shell_completion.h"
+#include "manual/shell_completion.h"
 
 #include <fmt/core.h>
 
 #include <string_view>
 #include <vector>
 
-namespace gumcert::cli {
+namespace gumcert::manual {
 
 namespace {
 
@@ -219,4 +219,4 @@ std::string fish_completion(const ProgramDescription& described) {
     return out;
 }
 
-}  // namespace gumcert::cli
+}  // namespace gumcert::manual

@@ -7,7 +7,7 @@ namespace CLI {
 class App;
 }
 
-namespace gumcert::cli {
+namespace gumcert::manual {
 
 /// An option or a positional argument, as --help prints it.
 struct ArgumentDescription {
@@ -35,4 +35,4 @@ struct ProgramDescription {
 
 [[nodiscard]] ProgramDescription described(const CLI::App& program);
 
-}  // namespace gumcert::cli
+}  // namespace gumcert::manual
