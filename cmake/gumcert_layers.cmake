@@ -16,7 +16,7 @@ set(GUMCERT_LAYER_FOLDERS text encoding system gum/quantity json gum/expression 
                           reports/record/make/comparison
                           reports/record/make/rotary_table reports/record/make/circle_closure
                           reports/record/make/certificate reports reports/plots reports/view reports/forms
-                          reports/audit reports/studies reports/dcc reports/agreement audit/sources signing imports archive/store archive
+                          reports/audit reports/studies reports/summary reports/dcc reports/agreement audit/sources signing imports archive/store archive
                           outputs evaluation issuing archive/certificates self_test manual app/cli/terminal
                           app/cli/archive app/cli)
 
@@ -100,6 +100,7 @@ set(GUMCERT_EDGES_reports_audit                      text encoding gum/quantity 
                                                      reports/plots reports/view reports/forms)
 set(GUMCERT_EDGES_reports_studies                    text gum/quantity json gum engine/rotary_table gum/rotary_table
                                                      gum/rotary_table/studies reports/plots reports/forms)
+set(GUMCERT_EDGES_reports_summary                    text gum/quantity reports/record reports reports/view)
 set(GUMCERT_EDGES_reports_dcc                        text encoding gum/quantity json gum certificate reports/record
                                                      reports reports/view reports/forms)
 set(GUMCERT_EDGES_reports_agreement                  text gum/quantity json certificate reports/record reports
@@ -139,9 +140,9 @@ set(GUMCERT_EDGES_app_cli_terminal                   text encoding system gum/qu
 set(GUMCERT_EDGES_app_cli_archive                    text encoding system gum/quantity signing archive/store archive
                                                      outputs evaluation archive/certificates app/cli/terminal)
 set(GUMCERT_EDGES_app_cli                            text encoding gum/quantity certificate/gates audit/rules
-                                                     jobs/laboratory reports/record reports/record/make reports
-                                                     reports/view reports/forms reports/audit signing imports
-                                                     archive/store archive outputs evaluation issuing self_test manual
+                                                     jobs/laboratory reports/record reports reports/view reports/forms
+                                                     reports/audit reports/summary signing imports archive/store
+                                                     archive outputs evaluation issuing self_test manual
                                                      app/cli/terminal app/cli/archive)
 
 # Headers from outside that a layer may include: a first folder (Eigen) or one file (cholmod.h). The standard library is
@@ -199,6 +200,7 @@ set(GUMCERT_THIRD_PARTY_reports_forms                      fcntl.h kainjow nlohm
                                                            sys/resource.h sys/wait.h unistd.h)
 set(GUMCERT_THIRD_PARTY_reports_audit                      nlohmann)
 set(GUMCERT_THIRD_PARTY_reports_studies                    nlohmann)
+set(GUMCERT_THIRD_PARTY_reports_summary                    fmt)
 set(GUMCERT_THIRD_PARTY_reports_dcc                        libxml nlohmann)
 set(GUMCERT_THIRD_PARTY_signing                            fcntl.h libxml nlohmann openssl poll.h qpdf spawn.h
                                                            sys/wait.h unistd.h xmlsec)

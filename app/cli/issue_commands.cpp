@@ -12,7 +12,6 @@
 #include <set>
 #include <utility>
 
-#include "app/cli/summary.h"
 #include "app/cli/terminal/clock.h"
 #include "app/cli/terminal/name_job.h"
 #include "app/cli/terminal/output_places.h"
@@ -35,6 +34,7 @@
 #include "reports/forms/record_sentences.h"
 #include "reports/forms/study_document.h"
 #include "reports/record/evaluation_record.h"
+#include "reports/summary/record_summary.h"
 #include "reports/view/named_tables.h"
 #include "text/visible_text.h"
 
@@ -305,7 +305,7 @@ bool run_job(const fs::path& job, const fs::path& folder, std::vector<fs::path> 
         report_withheld(job.string(), documents, common);
     }
     if (!common.quiet) {
-        print_summary(record);
+        print_to_stdout("{}", reports::summary_text(record));
         print_audit(*evaluation.audit, folder / k_audit_file);
         print_written(files);
     }
@@ -504,7 +504,7 @@ ExitCode evaluate_to_record(const fs::path& job, const DocumentOptions& options,
     report_findings(evaluation.record, common);
     report_audit(evaluation, common);
     if (!common.quiet) {
-        print_summary(evaluation.record);
+        print_to_stdout("{}", reports::summary_text(evaluation.record));
         print_audit(*evaluation.audit, "gumcert audit " + record_file.string() + " -o audit.html shows them");
         print_written(files);
         print_to_stdout("Next: gumcert render {} --format pdf{}\n", text::one_line(record_file.string()),

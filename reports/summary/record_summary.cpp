@@ -1,4 +1,4 @@
-#include "app/cli/summary.h"
+#include "reports/summary/record_summary.h"
 
 #include <fmt/core.h>
 
@@ -12,60 +12,59 @@
 #include "gum/quantity/unit.h"
 #include "reports/printed_texts.h"
 #include "reports/record/comparison_scores.h"
-#include "reports/record/make/record_parts.h"
 #include "reports/record/record_kinds.h"
 #include "reports/view/comparison_sections.h"
 #include "text/lists.h"
 
-namespace gumcert::cli {
+namespace gumcert::reports {
 
 namespace {
 
 /// "k = 2.92, p = 99 %": how the expanded uncertainty was found.
-std::string coverage_text(const reports::ReportedResult& result) {
+std::string coverage_text(const ReportedResult& result) {
     std::string text = result.k ? fmt::format("k = {:.2f}, ", *result.k) : "";
-    text += "p = " + reports::percent_text(result.coverage_probability);
+    text += "p = " + percent_text(result.coverage_probability);
     return result.method == "monte_carlo" ? text + ", Monte Carlo" : text;
 }
 
 /// "l = 50000203 nm ± 57 nm", or the interval where that alone holds.
-void print_reported(const reports::Result& result) {
-    const reports::ReportedResult& reported = result.reported;
+void add_reported(std::string& text, const Result& result) {
+    const ReportedResult& reported = result.reported;
     const std::string unit = reported.printed.unit.empty() ? "" : " " + reported.printed.unit;
     if (!reported.printed.U.empty()) {
-        print_to_stdout("  {} = {} ± {}{}   ({})\n", result.name, reported.printed.value, reported.printed.U, unit,
-                        coverage_text(reported));
+        text += fmt::format("  {} = {} ± {}{}   ({})\n", result.name, reported.printed.value, reported.printed.U, unit,
+                            coverage_text(reported));
     } else if (!reported.printed_low.empty()) {
         const std::string u = reported.printed_u.empty() ? "no u exists" : "u = " + reported.printed_u + unit;
-        print_to_stdout("  {} = {}{}, {}, interval {} to {}{}   ({})\n", result.name, reported.printed.value, unit, u,
-                        reported.printed_low, reported.printed_high, unit, coverage_text(reported));
+        text += fmt::format("  {} = {}{}, {}, interval {} to {}{}   ({})\n", result.name, reported.printed.value, unit,
+                            u, reported.printed_low, reported.printed_high, unit, coverage_text(reported));
     } else {
-        print_to_stdout("  {} = {}{}   no expanded uncertainty can be stated\n", result.name, reported.printed.value,
-                        unit);
+        text += fmt::format("  {} = {}{}   no expanded uncertainty can be stated\n", result.name,
+                            reported.printed.value, unit);
     }
 }
 
 /// Results of a budget, one a line; of a long table of points the first ones.
-void print_results(const reports::EvaluationRecord& record) {
+void add_results(std::string& text, const EvaluationRecord& record) {
     constexpr std::size_t k_most_lines = 30;
     for (std::size_t i = 0; i < record.results.size() && i < k_most_lines; ++i) {
-        const reports::Result& result = record.results[i];
-        print_reported(result);
+        const Result& result = record.results[i];
+        add_reported(text, result);
         if (result.monte_carlo) {
-            const reports::MonteCarloSummary& monte_carlo = *result.monte_carlo;
-            print_to_stdout("      Monte Carlo, {} trials: u = {}, interval {} to {}", monte_carlo.trials.text,
-                            monte_carlo.u.number ? monte_carlo.u.text : "does not exist", monte_carlo.symmetric.text[0],
-                            monte_carlo.symmetric.text[1]);
+            const MonteCarloSummary& monte_carlo = *result.monte_carlo;
+            text += fmt::format("      Monte Carlo, {} trials: u = {}, interval {} to {}", monte_carlo.trials.text,
+                                monte_carlo.u.number ? monte_carlo.u.text : "does not exist",
+                                monte_carlo.symmetric.text[0], monte_carlo.symmetric.text[1]);
             if (monte_carlo.validation) {
-                print_to_stdout("{}", !monte_carlo.validation->precise_enough ? "; too few trials to validate"
-                                      : monte_carlo.validation->validated     ? "; law of propagation validated"
-                                                                              : "; law of propagation NOT validated");
+                text += !monte_carlo.validation->precise_enough ? "; too few trials to validate"
+                        : monte_carlo.validation->validated     ? "; law of propagation validated"
+                                                                : "; law of propagation NOT validated";
             }
-            print_to_stdout("\n");
+            text += "\n";
         }
     }
     if (record.results.size() > k_most_lines) {
-        print_to_stdout("  … and {} more, all of them in the record\n", record.results.size() - k_most_lines);
+        text += fmt::format("  … and {} more, all of them in the record\n", record.results.size() - k_most_lines);
     }
 }
 
@@ -81,7 +80,7 @@ std::string with_uncertainty(const std::string& value, const std::string& U, con
                                      : value + in(unit) + " ± " + U + in(difference_unit);
 }
 
-/// "largest consistent subset"; the name of a method of reports::ComparisonItemEvaluation::method for people.
+/// "largest consistent subset"; the name of a method of ComparisonItemEvaluation::method for people.
 std::string method_in_words(const std::string& method) {
     if (method == "algorithm_a") {
         return "algorithm A";
@@ -106,8 +105,8 @@ std::string method_in_words(const std::string& method) {
 }
 
 /// The score of a result that decides. A deviation stands in the line already: P_A says what share of its limit it is.
-std::string deciding_score(const reports::ComparisonPoint& point, const std::string& score) {
-    const std::string text = score == "D" ? point.P_A.text : reports::score_of(point, score).text;
+std::string deciding_score(const ComparisonPoint& point, const std::string& score) {
+    const std::string text = score == "D" ? point.P_A.text : score_of(point, score).text;
     return text.empty() ? "–" : text;
 }
 
@@ -116,7 +115,7 @@ const char* score_symbol(const std::string& score) {
 }
 
 /// "action (D)": a signal, and who gives it where that is not the score beside it.
-std::string signal_in_words(const reports::ComparisonPoint& point, const std::string& score) {
+std::string signal_in_words(const ComparisonPoint& point, const std::string& score) {
     const std::vector<std::string>& by = point.signal_by;
     if (by.empty() || std::find(by.begin(), by.end(), score) != by.end()) {
         return point.signal;
@@ -130,22 +129,23 @@ std::string signal_in_words(const reports::ComparisonPoint& point, const std::st
     return point.signal + " (" + names + ")";
 }
 
-void print_names(const char* what, const std::vector<std::string>& names) {
+void add_names(std::string& text, const char* what, const std::vector<std::string>& names) {
     constexpr std::size_t k_most_names = 30;
     if (!names.empty()) {
-        print_to_stdout("  {}: {}\n", what, text::listed(names, k_most_names));
+        text += fmt::format("  {}: {}\n", what, text::listed(names, k_most_names));
     }
 }
 
-void print_item(const reports::Comparison& comparison, const reports::ComparisonItemEvaluation& item,
-                const std::string& coverage) {
+void add_item(std::string& text, const Comparison& comparison, const ComparisonItemEvaluation& item,
+              const std::string& coverage) {
     constexpr std::size_t k_most_lines = 30;
     const std::string name = item.name.empty() ? item.id : item.name;
     const std::string round = item.round.empty() ? "" : "round " + item.round;
     if (!name.empty() || !round.empty()) {
-        print_to_stdout("\n{}{}{}\n", name, name.empty() || round.empty() ? "" : ", ", round);
+        text += fmt::format("\n{}{}{}\n", name, name.empty() || round.empty() ? "" : ", ", round);
     }
-    print_to_stdout("  assigned value ({}) {}{}\n", method_in_words(item.method),
+    text +=
+        fmt::format("  assigned value ({}) {}{}\n", method_in_words(item.method),
                     with_uncertainty(item.value.text, item.U.text, item.unit, item.difference_unit),
                     item.k.text.empty()
                         ? ""
@@ -153,17 +153,18 @@ void print_item(const reports::Comparison& comparison, const reports::Comparison
                               (item.U_rests_on == "scatter" && !item.nu.text.empty() ? ", nu = " + item.nu.text : "") +
                               ", p = " + coverage + ")");
     if (item.consistency) {
-        print_to_stdout("  consistency: chi-square {} on {} of freedom, p = {}{}\n", item.consistency->chi_square.text,
+        text +=
+            fmt::format("  consistency: chi-square {} on {} of freedom, p = {}{}\n", item.consistency->chi_square.text,
                         text::count_of(item.consistency->degrees_of_freedom, "degree"), item.consistency->p_value.text,
                         item.consistency->consistent  ? ""
                         : item.consistency->by_chance ? "   not consistent, as one of several items is by chance"
                                                       : "   NOT consistent");
     }
-    print_names("without a result", item.missing);
-    print_names("not in the largest consistent subset", item.not_consistent);
+    add_names(text, "without a result", item.missing);
+    add_names(text, "not in the largest consistent subset", item.not_consistent);
     std::size_t lines = 0;
     std::size_t left_out = 0;
-    for (const reports::ComparisonPoint& point : comparison.points) {
+    for (const ComparisonPoint& point : comparison.points) {
         if (point.item != item.id || point.round != item.round) {
             continue;
         }
@@ -171,65 +172,66 @@ void print_item(const reports::Comparison& comparison, const reports::Comparison
             ++left_out;
             continue;
         }
-        print_to_stdout("  {:<12} {:<26} D {:>10}", point.participant,
-                        with_uncertainty(point.value.text, point.U.text, item.unit, item.difference_unit),
-                        point.D.text);
+        text += fmt::format("  {:<12} {:<26} D {:>10}", point.participant,
+                            with_uncertainty(point.value.text, point.U.text, item.unit, item.difference_unit),
+                            point.D.text);
         if (!item.score.empty()) {
-            print_to_stdout("   {} {:>6}", score_symbol(item.score), deciding_score(point, item.score));
+            text += fmt::format("   {} {:>6}", score_symbol(item.score), deciding_score(point, item.score));
         }
-        print_to_stdout(
+        text += fmt::format(
             "{}{}\n", point.signal == "none" || point.signal.empty() ? "" : "   " + signal_in_words(point, item.score),
-            reports::agreement_is_open(point) ? "   " + point.En_worst.text + " for the worst correlation" : "");
+            agreement_is_open(point) ? "   " + point.En_worst.text + " for the worst correlation" : "");
     }
     if (left_out > 0) {
-        print_to_stdout("  … and {} more, all of them in the record\n", left_out);
+        text += fmt::format("  … and {} more, all of them in the record\n", left_out);
     }
 }
 
-void print_laboratories(const reports::Comparison& comparison, const std::string& coverage) {
+void add_laboratories(std::string& text, const Comparison& comparison, const std::string& coverage) {
     constexpr std::size_t k_most_items = 5;
     for (std::size_t i = 0; i < comparison.items.size() && i < k_most_items; ++i) {
-        print_item(comparison, comparison.items[i], coverage);
+        add_item(text, comparison, comparison.items[i], coverage);
     }
     if (comparison.items.size() > k_most_items) {
-        print_to_stdout("\n… and {} more, all of them in the record\n", comparison.items.size() - k_most_items);
+        text += fmt::format("\n… and {} more, all of them in the record\n", comparison.items.size() - k_most_items);
     }
     std::size_t warnings = 0;
     std::size_t actions = 0;
-    for (const reports::ComparisonPoint& point : comparison.points) {
+    for (const ComparisonPoint& point : comparison.points) {
         warnings += point.signal == "warning" ? 1U : 0U;
         actions += point.signal == "action" ? 1U : 0U;
     }
     std::size_t inconclusive = 0;
-    for (const reports::ComparisonPoint& point : comparison.points) {
+    for (const ComparisonPoint& point : comparison.points) {
         inconclusive += point.signal == "inconclusive" ? 1U : 0U;
     }
-    print_to_stdout("\n{} results: {} with an action signal, {} with a warning signal\n", comparison.points.size(),
-                    actions, warnings);
+    text += fmt::format("\n{} results: {} with an action signal, {} with a warning signal\n", comparison.points.size(),
+                        actions, warnings);
     if (inconclusive > 0) {
-        print_to_stdout(
+        text += fmt::format(
             "{} cannot be judged: the assigned value is too uncertain for them, of unknown uncertainty, or one of "
             "several, or nobody knows what they share\n",
             inconclusive);
     }
-    for (const reports::VectorScore& vector : comparison.vectors) {
+    for (const VectorScore& vector : comparison.vectors) {
         if (vector.signal == "action") {
-            print_to_stdout("{}, {}{}: the quantities lie outside their joint region (vector En {})\n",
-                            vector.participant, vector.name, vector.round.empty() ? "" : ", " + vector.round,
-                            vector.vector_En.text);
+            text += fmt::format("{}, {}{}: the quantities lie outside their joint region (vector En {})\n",
+                                vector.participant, vector.name, vector.round.empty() ? "" : ", " + vector.round,
+                                vector.vector_En.text);
         }
     }
     const auto inconsistent =
-        std::count_if(comparison.items.begin(), comparison.items.end(), [](const reports::ComparisonItemEvaluation& i) {
+        std::count_if(comparison.items.begin(), comparison.items.end(), [](const ComparisonItemEvaluation& i) {
             return i.consistency && !i.consistency->consistent && !i.consistency->by_chance;
         });
     if (inconsistent > 0 && comparison.items.size() > k_most_items) {
-        print_to_stdout("{} of {} items: the results contradict each other\n", inconsistent, comparison.items.size());
+        text +=
+            fmt::format("{} of {} items: the results contradict each other\n", inconsistent, comparison.items.size());
     }
-    for (const reports::ItemWithoutResult& item : comparison.items_without_result) {
+    for (const ItemWithoutResult& item : comparison.items_without_result) {
         const std::string name = item.name.empty() ? item.id : item.name;
         const std::string round = item.round.empty() ? "" : (name.empty() ? "round " : ", round ") + item.round;
-        print_to_stdout("{}{}: no result: {} [{}]\n", name, round, item.what, item.code);
+        text += fmt::format("{}{}: no result: {} [{}]\n", name, round, item.what, item.code);
     }
 }
 
@@ -253,77 +255,80 @@ const char* verdict_text(const std::string& verdict, bool lacks_degrees) {
                                              : "";
 }
 
-void print_methods(const reports::Comparison& comparison) {
-    print_to_stdout("\n{}{} with {}:\n", comparison.method_name, comparison.method_name.empty() ? "Comparison" : "",
-                    comparison.reference_name);
-    for (const reports::ComparisonSummary& row : comparison.summary) {
-        print_to_stdout("  {:<6}  mean |En| {}   max |En| {}   above 1: {} of {}", row.direction, row.mean_abs_En.text,
-                        row.max_abs_En.text, row.count_above_1, row.points);
+void add_methods(std::string& text, const Comparison& comparison) {
+    text += fmt::format("\n{}{} with {}:\n", comparison.method_name, comparison.method_name.empty() ? "Comparison" : "",
+                        comparison.reference_name);
+    for (const ComparisonSummary& row : comparison.summary) {
+        text += fmt::format("  {:<6}  mean |En| {}   max |En| {}   above 1: {} of {}", row.direction,
+                            row.mean_abs_En.text, row.max_abs_En.text, row.count_above_1, row.points);
         if (!row.p_low.text.empty()) {
-            print_to_stdout("   p_low {}", row.p_low.text);
+            text += fmt::format("   p_low {}", row.p_low.text);
         }
         if (!row.verdict.empty()) {
-            print_to_stdout("\n          {}", verdict_text(row.verdict, row.power_lacks_degrees));
+            text += fmt::format("\n          {}", verdict_text(row.verdict, row.power_lacks_degrees));
         }
-        print_to_stdout("\n");
+        text += "\n";
     }
 }
 
-void print_comparison(const reports::EvaluationRecord& record) {
+void add_comparison(std::string& text, const EvaluationRecord& record) {
     if (!record.comparison) {
         return;
     }
     if (record.comparison->form == "laboratories") {
-        print_laboratories(*record.comparison, record.coverage_probability.text);
+        add_laboratories(text, *record.comparison, record.coverage_probability.text);
     } else {
-        print_methods(*record.comparison);
+        add_methods(text, *record.comparison);
     }
 }
 
-void print_rotary_table(const reports::EvaluationRecord& record) {
-    const reports::RotaryTable& rotary = *record.rotary;
-    print_to_stdout("Set-up of the fixture (value ± U, p = {}):\n", record.coverage_probability.text);
-    for (const reports::Result& result : record.results) {
-        print_to_stdout("  {:<4} {:>9} ± {} {}   {}\n", result.name, result.printed.value, result.printed.U,
-                        result.printed.unit, result.description);
+void add_rotary_table(std::string& text, const EvaluationRecord& record) {
+    const RotaryTable& rotary = *record.rotary;
+    text += fmt::format("Set-up of the fixture (value ± U, p = {}):\n", record.coverage_probability.text);
+    for (const Result& result : record.results) {
+        text += fmt::format("  {:<4} {:>9} ± {} {}   {}\n", result.name, result.printed.value, result.printed.U,
+                            result.printed.unit, result.description);
     }
-    print_to_stdout("\nError motions over {} angles, datum {}:\n", rotary.errors.size(),
-                    rotary.datum == "home" ? "home" : "axis average line");
-    for (const reports::RangeRow& range : rotary.ranges) {
-        const reports::Printed& printed = range.stated.printed;
-        print_to_stdout("  {}  range {:>7} ± {} {}\n", range.name, printed.value, printed.U, printed.unit);
+    text += fmt::format("\nError motions over {} angles, datum {}:\n", rotary.errors.size(),
+                        rotary.datum == "home" ? "home" : "axis average line");
+    for (const RangeRow& range : rotary.ranges) {
+        const Printed& printed = range.stated.printed;
+        text += fmt::format("  {}  range {:>7} ± {} {}\n", range.name, printed.value, printed.U, printed.unit);
     }
-    print_to_stdout("\nAdjustment: {} observations, {} parameters, chi-square {} on {} degrees of freedom, p = {}\n",
+    text +=
+        fmt::format("\nAdjustment: {} observations, {} parameters, chi-square {} on {} degrees of freedom, p = {}\n",
                     rotary.adjustment.observations, rotary.adjustment.parameters, rotary.adjustment.chi_square.text,
                     rotary.adjustment.degrees_of_freedom, rotary.adjustment.p_value.text);
     std::size_t removed = 0;
-    for (const reports::FlaggedDistance& distance : rotary.flagged) {
+    for (const FlaggedDistance& distance : rotary.flagged) {
         removed += distance.removed ? 1 : 0;
     }
-    print_to_stdout("Outlying distances: {} found, {} left out (listed in the certificate)\n", rotary.flagged.size(),
-                    removed);
+    text += fmt::format("Outlying distances: {} found, {} left out (listed in the certificate)\n",
+                        rotary.flagged.size(), removed);
     if (rotary.monte_carlo) {
-        print_to_stdout("\nMonte Carlo: {}\n", rotary.monte_carlo->statement);
+        text += fmt::format("\nMonte Carlo: {}\n", rotary.monte_carlo->statement);
     }
-    print_comparison(record);  // with its reference method, where there is one
+    add_comparison(text, record);  // with its reference method, where there is one
 }
 
 /// What is shown of a record of one kind; of others, their results.
 struct Summary {
     std::string_view kind;
-    void (*print)(const reports::EvaluationRecord& record);
+    void (*add)(std::string& text, const EvaluationRecord& record);
 };
 constexpr std::array<Summary, 2> k_summaries{
-    {{reports::k_rotary_table_kind, print_rotary_table}, {reports::k_comparison_kind, print_comparison}}};
+    {{k_rotary_table_kind, add_rotary_table}, {k_comparison_kind, add_comparison}}};
 
 }  // namespace
 
-void print_summary(const reports::EvaluationRecord& record) {
+std::string summary_text(const EvaluationRecord& record) {
+    std::string text;
     if (!record.title.empty()) {
-        print_to_stdout("{}\n\n", record.title);
+        text += fmt::format("{}\n\n", record.title);
     }
     const auto own = std::ranges::find(k_summaries, record.kind, &Summary::kind);
-    (own != k_summaries.end() ? own->print : print_results)(record);
+    (own != k_summaries.end() ? own->add : add_results)(text, record);
+    return text;
 }
 
-}  // namespace gumcert::cli
+}  // namespace gumcert::reports
