@@ -139,7 +139,7 @@ set(GUMCERT_EDGES_app_cli_terminal                   text encoding system gum/qu
                                                      archive/store outputs evaluation)
 set(GUMCERT_EDGES_app_cli_archive                    text encoding system gum/quantity signing archive/store archive
                                                      outputs evaluation archive/certificates app/cli/terminal)
-set(GUMCERT_EDGES_app_cli                            text encoding gum/quantity certificate/gates audit/rules
+set(GUMCERT_EDGES_app_cli                            text encoding system gum/quantity certificate/gates audit/rules
                                                      jobs/laboratory reports/record reports reports/view reports/forms
                                                      reports/audit reports/summary signing imports archive/store
                                                      archive outputs evaluation issuing self_test manual
@@ -150,8 +150,9 @@ set(GUMCERT_EDGES_app_cli                            text encoding gum/quantity 
 set(GUMCERT_THIRD_PARTY_text)
 set(GUMCERT_THIRD_PARTY_encoding                           fcntl.h linux/openat2.h openssl sys/stat.h sys/syscall.h
                                                            unistd.h)
-set(GUMCERT_THIRD_PARTY_system                             fcntl.h linux stdlib.h sys/file.h sys/prctl.h sys/resource.h
-                                                           sys/stat.h sys/syscall.h sys/types.h unistd.h)
+set(GUMCERT_THIRD_PARTY_system                             fcntl.h gnu link.h linux stdlib.h sys/file.h sys/prctl.h
+                                                           sys/resource.h sys/stat.h sys/syscall.h sys/types.h
+                                                           sys/utsname.h unistd.h)
 set(GUMCERT_THIRD_PARTY_gum_quantity                       Eigen)
 set(GUMCERT_THIRD_PARTY_json                               nlohmann)
 set(GUMCERT_THIRD_PARTY_gum_expression                     Eigen boost)
@@ -216,8 +217,8 @@ set(GUMCERT_THIRD_PARTY_manual                             CLI fmt)
 set(GUMCERT_THIRD_PARTY_app_cli_terminal                   fcntl.h fmt gumcert_build_info.h gumcert_templates.h
                                                            nlohmann sys/resource.h unistd.h)
 set(GUMCERT_THIRD_PARTY_app_cli_archive                    fmt gumcert_build_info.h nlohmann)
-set(GUMCERT_THIRD_PARTY_app_cli                            CLI fmt gnu gumcert_build_info.h gumcert_made_with.h
-                                                           gumcert_templates.h link.h nlohmann sys/utsname.h)
+set(GUMCERT_THIRD_PARTY_app_cli                            CLI fmt gumcert_build_info.h gumcert_made_with.h
+                                                           gumcert_templates.h nlohmann)
 
 # Layers that may open files; the others are handed what they need and hand back what they made.
 set(GUMCERT_MAY_TOUCH_FILES encoding system jobs jobs/budget jobs/circle_closure jobs/rotary_table jobs/comparison reports/forms signing archive/store outputs evaluation archive/certificates self_test app/cli/terminal app/cli/archive app/cli)
