@@ -111,7 +111,7 @@ set(GUMCERT_EDGES_signing                            text encoding system gum/qu
 set(GUMCERT_EDGES_imports                            text gum/quantity json gum/expression certificate reports reports/dcc
                                                      signing)
 set(GUMCERT_EDGES_archive_store                      encoding gum/quantity)
-set(GUMCERT_EDGES_archive                            text encoding gum/quantity gum/expression json archive/store)
+set(GUMCERT_EDGES_archive                            text encoding gum/quantity json gum/expression archive/store)
 set(GUMCERT_EDGES_outputs                            encoding system gum/quantity json)
 set(GUMCERT_EDGES_evaluation                         text encoding gum/quantity json gum/monte_carlo certificate
                                                      certificate/gates laboratory engine/rotary_table
@@ -207,7 +207,7 @@ set(GUMCERT_THIRD_PARTY_signing                            fcntl.h libxml nlohma
                                                            sys/wait.h unistd.h xmlsec)
 set(GUMCERT_THIRD_PARTY_imports                            nlohmann)
 set(GUMCERT_THIRD_PARTY_archive_store                      fcntl.h libpq-fe.h sqlite3.h sys/stat.h sys/vfs.h unistd.h)
-set(GUMCERT_THIRD_PARTY_archive                            nlohmann)
+set(GUMCERT_THIRD_PARTY_archive                            fmt nlohmann)
 set(GUMCERT_THIRD_PARTY_outputs                            fcntl.h nlohmann sys/stat.h unistd.h)
 set(GUMCERT_THIRD_PARTY_evaluation                         Eigen gumcert_build_info.h nlohmann)
 set(GUMCERT_THIRD_PARTY_issuing)
