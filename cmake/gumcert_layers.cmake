@@ -127,8 +127,8 @@ set(GUMCERT_EDGES_evaluation                         text encoding gum/quantity 
                                                      imports outputs)
 set(GUMCERT_EDGES_issuing                            gum/quantity certificate reports/record reports reports/forms
                                                      reports/dcc signing evaluation)
-set(GUMCERT_EDGES_archive_certificates               text encoding gum/quantity json gum/expression gum gum/monte_carlo
-                                                     certificate certificate/gates jobs reports/record
+set(GUMCERT_EDGES_archive_certificates               text encoding gum/quantity json gum/expression gum
+                                                     gum/monte_carlo certificate certificate/gates jobs reports/record
                                                      reports/record/make/certificate reports reports/forms reports/dcc
                                                      reports/agreement signing imports archive/store archive outputs
                                                      evaluation issuing)
@@ -211,7 +211,7 @@ set(GUMCERT_THIRD_PARTY_archive                            fmt nlohmann)
 set(GUMCERT_THIRD_PARTY_outputs                            fcntl.h nlohmann sys/stat.h unistd.h)
 set(GUMCERT_THIRD_PARTY_evaluation                         Eigen gumcert_build_info.h nlohmann)
 set(GUMCERT_THIRD_PARTY_issuing)
-set(GUMCERT_THIRD_PARTY_archive_certificates               nlohmann)
+set(GUMCERT_THIRD_PARTY_archive_certificates               fmt nlohmann)
 set(GUMCERT_THIRD_PARTY_self_test                          nlohmann)
 set(GUMCERT_THIRD_PARTY_manual                             CLI fmt)
 set(GUMCERT_THIRD_PARTY_app_cli_terminal                   fcntl.h fmt gumcert_build_info.h gumcert_templates.h
