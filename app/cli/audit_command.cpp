@@ -11,12 +11,12 @@
 #include <string_view>
 #include <utility>
 
-#include "app/cli/terminal/name_job.h"
 #include "app/cli/terminal/output_places.h"
 #include "app/cli/terminal/share_folder.h"
 #include "audit/rules/registry.h"
 #include "evaluation/audit_evaluation.h"
 #include "evaluation/audit_files.h"
+#include "evaluation/name_job.h"
 #include "outputs/output_files.h"
 #include "reports/audit/audit_document.h"
 #include "reports/audit/audit_html.h"
@@ -187,8 +187,8 @@ ExitCode audit_files(const std::vector<std::string>& files, const AuditOptions& 
             if (attempt.failure) {
                 unaudited.push_back(
                     {.file = files_to_audit.files[i].file.string(), .because = reason_of(attempt.failure)});
-                naming_job(files_to_audit.files[i].file, files_to_audit.files.size() > 1,
-                           [&] { std::rethrow_exception(attempt.failure); });
+                evaluation::naming_job(files_to_audit.files[i].file, files_to_audit.files.size() > 1,
+                                       [&] { std::rethrow_exception(attempt.failure); });
             }
             views.push_back(std::move(*attempt.view));
             return attempt.has_critical ? negative_answer : done;

@@ -9,10 +9,10 @@
 #include <utility>
 
 #include "app/cli/terminal/clock.h"
-#include "app/cli/terminal/name_job.h"
 #include "app/cli/terminal/output_places.h"
 #include "app/cli/terminal/share_folder.h"
 #include "evaluation/check_file.h"
+#include "evaluation/name_job.h"
 #include "evaluation/read_file.h"
 #include "imports/foreign_certificate.h"
 #include "imports/import_certificate.h"
@@ -175,14 +175,14 @@ ExitCode check_files(const std::vector<std::string>& files, bool certificates, c
                 check.findings = imports::check_certificate(evaluation::read_file(file), file, trust);
             } else {
                 ProgressLine progress(!common.quiet);
-                check = naming_job(file, several, [&] {
+                check = evaluation::naming_job(file, several, [&] {
                     return evaluation::check_file(
                         file, static_cast<unsigned>(common.threads), templates_folder(share),
                         [&](const std::string& text) { progress(text); }, laboratory);
                 });
             }
             if (several) {
-                check.findings = of_job(std::move(check.findings), file);
+                check.findings = evaluation::of_job(std::move(check.findings), file);
             }
             return print_check(file, check, common);
         });

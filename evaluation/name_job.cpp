@@ -1,8 +1,8 @@
-#include "app/cli/terminal/name_job.h"
+#include "evaluation/name_job.h"
 
 #include <string>
 
-namespace gumcert::cli {
+namespace gumcert::evaluation {
 
 std::vector<gum::Diagnostic> of_job(std::vector<gum::Diagnostic> diagnostics, const std::filesystem::path& job) {
     const std::string path = job.string();
@@ -21,4 +21,4 @@ std::vector<gum::Diagnostic> of_job(std::vector<gum::Diagnostic> diagnostics, co
     return diagnostics;
 }
 
-}  // namespace gumcert::cli
+}  // namespace gumcert::evaluation

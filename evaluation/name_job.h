@@ -6,7 +6,7 @@
 #include "gum/quantity/diagnostic.h"
 
 /// Of several jobs in one command nobody knows which one "job.json#/model" is in: what readers say names no folder.
-namespace gumcert::cli {
+namespace gumcert::evaluation {
 
 /// The same, and where it is names the job with its folder: "b/job.json#/model", "b/job.json, points.csv:3:1".
 [[nodiscard]] std::vector<gum::Diagnostic> of_job(std::vector<gum::Diagnostic> diagnostics,
@@ -29,4 +29,4 @@ auto naming_job(const std::filesystem::path& job, bool several, const Work& work
     }
 }
 
-}  // namespace gumcert::cli
+}  // namespace gumcert::evaluation
