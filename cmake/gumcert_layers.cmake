@@ -125,9 +125,9 @@ set(GUMCERT_EDGES_evaluation                         text encoding gum/quantity 
                                                      reports/record/make/certificate reports reports/forms
                                                      reports/audit reports/studies reports/dcc audit/sources signing
                                                      imports outputs)
-set(GUMCERT_EDGES_issuing                            gum/quantity certificate certificate/gates reports/record reports
-                                                     reports/view reports/forms reports/audit reports/dcc signing
-                                                     outputs evaluation)
+set(GUMCERT_EDGES_issuing                            text gum/quantity certificate certificate/gates reports/record
+                                                     reports reports/view reports/forms reports/audit reports/dcc
+                                                     signing outputs evaluation)
 set(GUMCERT_EDGES_archive_certificates               text encoding gum/quantity json gum/expression gum
                                                      gum/monte_carlo certificate certificate/gates jobs reports/record
                                                      reports/record/make/certificate reports reports/forms reports/dcc

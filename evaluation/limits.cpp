@@ -1,5 +1,8 @@
 #include "evaluation/limits.h"
 
+#include <algorithm>
+#include <cstddef>
+
 #include "evaluation/read_file.h"
 #include "jobs/budget/budget_job_statement.h"
 #include "jobs/budget/budget_statement_fields.h"
@@ -104,6 +107,25 @@ std::vector<Limit> limits() {
         {k_page, "memory", page.pdf_memory_limit, k_byte},
         {k_page, "time for a document", static_cast<std::uint64_t>(page.pdf_time_limit.count()), "s"},
     };
+}
+
+std::string limits_text() {
+    const std::vector<Limit> all = limits();
+    std::size_t width = 0;
+    for (const Limit& limit : all) {
+        width = std::max(width, limit.value().size());
+    }
+    std::string text;
+    std::string_view last;
+    for (const Limit& limit : all) {
+        if (limit.applies_to != last) {
+            text += (last.empty() ? "" : "\n") + std::string(limit.applies_to) + ":\n";
+            last = limit.applies_to;
+        }
+        const std::string value = limit.value();
+        text += std::string(width + 2 - value.size(), ' ') + value + "  " + std::string(limit.what) + "\n";
+    }
+    return text;
 }
 
 }  // namespace gumcert::evaluation

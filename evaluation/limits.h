@@ -28,4 +28,7 @@ struct Limit {
 /// docs/job_keys.md.
 [[nodiscard]] std::vector<Limit> limits();
 
+/// The same in lines, by what they apply to.
+[[nodiscard]] std::string limits_text();
+
 }  // namespace gumcert::evaluation

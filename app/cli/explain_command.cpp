@@ -1,6 +1,5 @@
 #include "app/cli/explain_command.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <filesystem>
 #include <utility>
@@ -65,21 +64,7 @@ ExitCode explain(const std::vector<std::string>& words, const std::string& share
 }
 
 ExitCode list_limits() {
-    const std::vector<evaluation::Limit> limits = evaluation::limits();
-    std::size_t width = 0;
-    for (const evaluation::Limit& limit : limits) {
-        width = std::max(width, limit.value().size());
-    }
-    std::string text;
-    std::string_view last;
-    for (const evaluation::Limit& limit : limits) {
-        if (limit.applies_to != last) {
-            text += (last.empty() ? "" : "\n") + std::string(limit.applies_to) + ":\n";
-            last = limit.applies_to;
-        }
-        text += fmt::format("{:>{}}  {}\n", limit.value(), width + 2, limit.what);
-    }
-    write_to_stdout(text);
+    write_to_stdout(evaluation::limits_text());
     return done;
 }
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <set>
 #include <string>
 
@@ -35,6 +37,21 @@ TEST(Limits, AreThoseThatRefuse) {
     EXPECT_TRUE(values.contains("a file 64 MiB"));
     EXPECT_TRUE(values.contains("time for a document 60 s"));
     EXPECT_TRUE(values.contains("a file 20 000 000 bytes"));
+}
+
+TEST(Limits, StandInLinesByWhatTheyApplyTo) {
+    const std::string text = limits_text();
+    EXPECT_TRUE(text.starts_with("files of a job:\n")) << text.substr(0, 40);
+    EXPECT_NE(text.find("\n\njobs of kind budget:\n"), std::string::npos);
+    std::size_t width = 0;
+    for (const Limit& limit : limits()) {
+        const std::string line = limit.value() + "  " + std::string(limit.what) + "\n";
+        EXPECT_NE(text.find(line), std::string::npos) << line;
+        width = std::max(width, limit.value().size());
+    }
+    EXPECT_NE(text.find("\n" + std::string(width + 2 - std::string("64 MiB").size(), ' ') + "64 MiB  a file\n"),
+              std::string::npos)
+        << "values end in one column";
 }
 
 }  // namespace
