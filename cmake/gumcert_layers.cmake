@@ -140,11 +140,11 @@ set(GUMCERT_EDGES_app_cli_terminal                   text encoding system gum/qu
                                                      archive/store outputs evaluation)
 set(GUMCERT_EDGES_app_cli_archive                    text encoding system gum/quantity signing archive/store archive
                                                      outputs evaluation archive/certificates app/cli/terminal)
-set(GUMCERT_EDGES_app_cli                            text encoding system gum/quantity audit/rules jobs/laboratory
-                                                     reports/record reports reports/forms reports/audit
-                                                     reports/summary signing imports archive/store archive outputs
-                                                     evaluation issuing self_test manual app/cli/terminal
-                                                     app/cli/archive)
+set(GUMCERT_EDGES_app_cli                            text encoding system gum/quantity certificate audit/rules
+                                                     jobs/laboratory reports/record reports reports/forms
+                                                     reports/audit reports/summary signing imports archive/store
+                                                     archive outputs evaluation issuing self_test manual
+                                                     app/cli/terminal app/cli/archive)
 
 # Headers from outside that a layer may include: a first folder (Eigen) or one file (cholmod.h). The standard library is
 # free for all; what a layer may not do with it is in tests/lint/check_includes.py. Headers of POSIX count as foreign.
