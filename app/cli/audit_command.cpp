@@ -17,6 +17,7 @@
 #include "evaluation/audit_evaluation.h"
 #include "evaluation/audit_files.h"
 #include "evaluation/name_job.h"
+#include "outputs/kept_files.h"
 #include "outputs/output_files.h"
 #include "reports/audit/audit_document.h"
 #include "reports/audit/audit_html.h"
@@ -164,7 +165,7 @@ ExitCode audit_files(const std::vector<std::string>& files, const AuditOptions& 
         outputs.push_back(file);
     }
     if (!to.files.empty()) {
-        outputs.push_back(kept_place(numbers_file(to)));
+        outputs.push_back(outputs::kept_place(numbers_file(to)));
     }
     outputs::require_not_inputs(outputs, all);
     const outputs::OutputsAtStart at_start = begin_outputs(outputs, common);
@@ -213,7 +214,7 @@ ExitCode audit_files(const std::vector<std::string>& files, const AuditOptions& 
     }
     add_program_files(inputs, options.share);
     std::vector<outputs::OutputFile> written;
-    make_or_keep(
+    outputs::make_or_keep(
         [&] {
             for (const auto& [form, file] : to.files) {
                 written.push_back({.path = file, .bytes = rendered(view, form, options, run)});

@@ -28,6 +28,7 @@
 #include "issuing/issue_documents.h"
 #include "issuing/judge_issue.h"
 #include "issuing/run_files.h"
+#include "outputs/kept_files.h"
 #include "outputs/output_files.h"
 #include "outputs/output_set.h"
 #include "reports/forms/document_forms.h"
@@ -198,14 +199,14 @@ bool run_job(const fs::path& job, const fs::path& folder, std::vector<fs::path> 
         }
         return true;
     };
-    make_or_keep([&] { (void)evaluation::naming_job(job, several, make_documents); },
-                 [&] {
-                     progress.clear();
-                     keep_files(files, inputs, at_start, "is the record of this evaluation",
-                                "print the record in another form: gumcert render " +
-                                    kept_place(files.front().path).string() + " --format html",
-                                common);
-                 });
+    outputs::make_or_keep([&] { (void)evaluation::naming_job(job, several, make_documents); },
+                          [&] {
+                              progress.clear();
+                              keep_files(files, inputs, at_start, "is the record of this evaluation",
+                                         "print the record in another form: gumcert render " +
+                                             outputs::kept_place(files.front().path).string() + " --format html",
+                                         common);
+                          });
     progress("writing");
     write_outputs(files, inputs, at_start);
     progress.clear();
@@ -346,7 +347,7 @@ ExitCode run_jobs(const std::vector<std::string>& jobs, const DocumentOptions& o
     std::vector<fs::path> outputs;
     for (const fs::path& folder : folders) {
         for (const fs::path& file : issuing::evaluated_places(folder)) {
-            outputs.insert(outputs.end(), {file, kept_place(file)});
+            outputs.insert(outputs.end(), {file, outputs::kept_place(file)});
         }
         for (const evaluation::Kind& kind : evaluation::program_kinds()) {
             const std::vector<fs::path> documents = issuing::document_places(kind, folder);
