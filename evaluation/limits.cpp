@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <system_error>
 
 #include "evaluation/read_file.h"
 #include "jobs/budget/budget_job_statement.h"
@@ -24,6 +25,11 @@ namespace gumcert::evaluation {
 
 namespace {
 
+constexpr std::uint64_t k_wall_step = 10'000'000;                 // [byte] of a file
+constexpr std::uint64_t k_wall_memory = std::uint64_t{1} << 30U;  // [byte], of the largest file
+constexpr std::uint64_t k_wall_memory_of_file = 262'144;          // [byte], what is kept of each until all are read
+constexpr std::uint64_t k_wall_time = 30;                         // [s], of all files together
+
 /// "100 000"
 std::string grouped(std::uint64_t number) {
     std::string digits = std::to_string(number);
@@ -34,6 +40,20 @@ std::string grouped(std::uint64_t number) {
 }
 
 }  // namespace
+
+Walls walls_of(const std::vector<std::filesystem::path>& files) {
+    std::uint64_t steps = 0;
+    std::uint64_t most = 1;
+    for (const std::filesystem::path& file : files) {
+        std::error_code error;
+        const std::uint64_t size = std::filesystem::file_size(file, error);
+        const std::uint64_t own = error ? 1 : 1 + size / k_wall_step;
+        steps += own;
+        most = std::max(most, own);
+    }
+    return {.memory = most * k_wall_memory + files.size() * k_wall_memory_of_file,
+            .time = std::max<std::uint64_t>(steps, 1) * k_wall_time};
+}
 
 std::string Limit::value() const {
     constexpr std::uint64_t k_kibi = 1024;

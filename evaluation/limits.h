@@ -1,17 +1,21 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace gumcert::evaluation {
 
-// What commands that read files of others may take where nothing is asked for, for every step begun of a file.
-inline constexpr std::uint64_t k_wall_step = 10'000'000;                 ///< [byte]
-inline constexpr std::uint64_t k_wall_memory = std::uint64_t{1} << 30U;  ///< [byte], of the largest file
-inline constexpr std::uint64_t k_wall_memory_of_file = 262'144;  ///< [byte], what is kept of each until all are read
-inline constexpr std::uint64_t k_wall_time = 30;                 ///< [s], of all files together
+/// What a command that reads files of others may take, where nothing else is asked for.
+struct Walls {
+    std::uint64_t memory = 0;  ///< [byte]
+    std::uint64_t time = 0;    ///< [s]
+};
+/// For every 10 MB begun of a file 1 GiB, the largest of them counting, and 256 KiB for each of them; and 30 s, all of them
+/// together. A file that cannot be looked at counts as a small one.
+[[nodiscard]] Walls walls_of(const std::vector<std::filesystem::path>& files);
 
 /// Something that is refused, or ended, beyond a size.
 struct Limit {

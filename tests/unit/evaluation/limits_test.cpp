@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
 #include <set>
 #include <string>
 
@@ -52,6 +55,22 @@ TEST(Limits, StandInLinesByWhatTheyApplyTo) {
     EXPECT_NE(text.find("\n" + std::string(width + 2 - std::string("64 MiB").size(), ' ') + "64 MiB  a file\n"),
               std::string::npos)
         << "values end in one column";
+}
+
+TEST(Limits, OfFilesOfOthersGrowWithThem) {
+    namespace fs = std::filesystem;
+    const fs::path folder = fs::path(testing::TempDir()) / "walls_of_files";
+    fs::remove_all(folder);
+    fs::create_directories(folder);
+    std::ofstream(folder / "small") << "x";
+    std::ofstream(folder / "large") << "x";
+    fs::resize_file(folder / "large", 25'000'000);
+    constexpr std::uint64_t k_gib = std::uint64_t{1} << 30U;
+    EXPECT_EQ(walls_of({}).time, 30U);
+    EXPECT_EQ(walls_of({}).memory, k_gib);
+    EXPECT_EQ(walls_of({folder / "small", folder / "nothing"}).time, 60U);
+    EXPECT_EQ(walls_of({folder / "small", folder / "large"}).time, 120U) << "1 and 3 steps";
+    EXPECT_EQ(walls_of({folder / "small", folder / "large"}).memory, 3 * k_gib + 2 * 262'144) << "the largest counts";
 }
 
 }  // namespace
