@@ -16,8 +16,9 @@ set(GUMCERT_LAYER_FOLDERS text encoding system gum/quantity json gum/expression 
                           reports/record/make/comparison
                           reports/record/make/rotary_table reports/record/make/circle_closure
                           reports/record/make/certificate reports reports/plots reports/view reports/forms
-                          reports/audit reports/studies reports/dcc reports/agreement audit/sources signing imports archive/store archive
-                          outputs evaluation issuing archive/certificates self_test app app/cli/terminal app/cli/archive app/cli)
+                          reports/audit reports/studies reports/summary reports/dcc reports/agreement audit/sources signing imports archive/store archive
+                          outputs evaluation issuing archive/certificates self_test manual app/cli/terminal
+                          app/cli/archive app/cli)
 
 # Our own layers whose headers a layer may include and whose library it may link.
 set(GUMCERT_EDGES_text)
@@ -99,6 +100,7 @@ set(GUMCERT_EDGES_reports_audit                      text encoding gum/quantity 
                                                      reports/plots reports/view reports/forms)
 set(GUMCERT_EDGES_reports_studies                    text gum/quantity json gum engine/rotary_table gum/rotary_table
                                                      gum/rotary_table/studies reports/plots reports/forms)
+set(GUMCERT_EDGES_reports_summary                    text gum/quantity reports/record reports reports/view)
 set(GUMCERT_EDGES_reports_dcc                        text encoding gum/quantity json gum certificate reports/record
                                                      reports reports/view reports/forms)
 set(GUMCERT_EDGES_reports_agreement                  text gum/quantity json certificate reports/record reports
@@ -109,46 +111,49 @@ set(GUMCERT_EDGES_signing                            text encoding system gum/qu
 set(GUMCERT_EDGES_imports                            text gum/quantity json gum/expression certificate reports reports/dcc
                                                      signing)
 set(GUMCERT_EDGES_archive_store                      encoding gum/quantity)
-set(GUMCERT_EDGES_archive                            text encoding gum/quantity gum/expression json archive/store)
+set(GUMCERT_EDGES_archive                            text encoding gum/quantity json gum/expression archive/store)
 set(GUMCERT_EDGES_outputs                            encoding system gum/quantity json)
 set(GUMCERT_EDGES_evaluation                         text encoding gum/quantity json gum/monte_carlo certificate
-                                                     certificate/gates engine/rotary_table engine/rotary_table/studies
-                                                     gum/budget gum/circle_closure gum/rotary_table gum/rotary_table/studies
-                                                     workbook audit audit/rules jobs jobs/certificate jobs/laboratory
-                                                     jobs/budget jobs/circle_closure jobs/rotary_table jobs/comparison
+                                                     certificate/gates laboratory engine/rotary_table
+                                                     engine/rotary_table/studies gum/budget gum/circle_closure
+                                                     gum/rotary_table gum/rotary_table/studies workbook audit
+                                                     audit/rules jobs jobs/certificate jobs/laboratory jobs/budget
+                                                     jobs/circle_closure jobs/rotary_table jobs/comparison
                                                      reports/record reports/record/make reports/record/make/budget
                                                      reports/record/make/comparison reports/record/make/rotary_table
-                                                     reports/record/make/circle_closure reports/record/make/certificate
-                                                     reports reports/forms reports/audit reports/studies reports/dcc
-                                                     audit/sources signing imports outputs)
-set(GUMCERT_EDGES_issuing                            gum/quantity certificate reports/record reports reports/forms
-                                                     reports/dcc signing evaluation)
-set(GUMCERT_EDGES_archive_certificates               text encoding gum/quantity json gum/expression gum gum/monte_carlo
-                                                     certificate certificate/gates jobs reports/record
+                                                     reports/record/make/circle_closure
+                                                     reports/record/make/certificate reports reports/forms
+                                                     reports/audit reports/studies reports/dcc audit/sources signing
+                                                     imports outputs)
+set(GUMCERT_EDGES_issuing                            text gum/quantity certificate certificate/gates reports/record
+                                                     reports reports/view reports/forms reports/audit reports/dcc
+                                                     signing outputs evaluation)
+set(GUMCERT_EDGES_archive_certificates               text encoding gum/quantity json gum/expression gum
+                                                     gum/monte_carlo certificate certificate/gates jobs reports/record
                                                      reports/record/make/certificate reports reports/forms reports/dcc
                                                      reports/agreement signing imports archive/store archive outputs
                                                      evaluation issuing)
 set(GUMCERT_EDGES_self_test                          text encoding gum/quantity json gum jobs reports/record reports
                                                      reports/view reports/forms evaluation)
-set(GUMCERT_EDGES_app                                text encoding gum/quantity json certificate laboratory workbook jobs
-                                                     jobs/laboratory jobs/budget jobs/rotary_table jobs/comparison
-                                                     reports/record reports/forms reports/dcc signing outputs evaluation)
+set(GUMCERT_EDGES_manual                             text)
 set(GUMCERT_EDGES_app_cli_terminal                   text encoding system gum/quantity reports/record reports/forms
-                                                     archive/store outputs evaluation app)
-set(GUMCERT_EDGES_app_cli_archive                    text encoding system gum/quantity signing archive/store archive outputs
-                                                     evaluation archive/certificates app app/cli/terminal)
-set(GUMCERT_EDGES_app_cli                            text encoding gum/quantity certificate/gates audit/rules jobs/laboratory
-                                                     reports/record reports/record/make reports reports/view reports/forms
-                                                     reports/audit signing imports archive/store archive outputs evaluation
-                                                     issuing self_test app app/cli/terminal app/cli/archive)
+                                                     archive/store outputs evaluation)
+set(GUMCERT_EDGES_app_cli_archive                    text encoding system gum/quantity signing archive/store archive
+                                                     outputs evaluation archive/certificates app/cli/terminal)
+set(GUMCERT_EDGES_app_cli                            text encoding system gum/quantity certificate audit/rules
+                                                     jobs/laboratory reports/record reports reports/forms
+                                                     reports/audit reports/summary signing imports archive/store
+                                                     archive outputs evaluation issuing self_test manual
+                                                     app/cli/terminal app/cli/archive)
 
 # Headers from outside that a layer may include: a first folder (Eigen) or one file (cholmod.h). The standard library is
 # free for all; what a layer may not do with it is in tests/lint/check_includes.py. Headers of POSIX count as foreign.
 set(GUMCERT_THIRD_PARTY_text)
 set(GUMCERT_THIRD_PARTY_encoding                           fcntl.h linux/openat2.h openssl sys/stat.h sys/syscall.h
                                                            unistd.h)
-set(GUMCERT_THIRD_PARTY_system                             fcntl.h linux stdlib.h sys/file.h sys/prctl.h sys/resource.h
-                                                           sys/stat.h sys/syscall.h sys/types.h unistd.h)
+set(GUMCERT_THIRD_PARTY_system                             fcntl.h gnu link.h linux stdlib.h sys/file.h sys/prctl.h
+                                                           sys/resource.h sys/stat.h sys/syscall.h sys/types.h
+                                                           sys/utsname.h unistd.h)
 set(GUMCERT_THIRD_PARTY_gum_quantity                       Eigen)
 set(GUMCERT_THIRD_PARTY_json                               nlohmann)
 set(GUMCERT_THIRD_PARTY_gum_expression                     Eigen boost)
@@ -197,26 +202,27 @@ set(GUMCERT_THIRD_PARTY_reports_forms                      fcntl.h kainjow nlohm
                                                            sys/resource.h sys/wait.h unistd.h)
 set(GUMCERT_THIRD_PARTY_reports_audit                      nlohmann)
 set(GUMCERT_THIRD_PARTY_reports_studies                    nlohmann)
+set(GUMCERT_THIRD_PARTY_reports_summary                    fmt)
 set(GUMCERT_THIRD_PARTY_reports_dcc                        libxml nlohmann)
 set(GUMCERT_THIRD_PARTY_signing                            fcntl.h libxml nlohmann openssl poll.h qpdf spawn.h
                                                            sys/wait.h unistd.h xmlsec)
 set(GUMCERT_THIRD_PARTY_imports                            nlohmann)
 set(GUMCERT_THIRD_PARTY_archive_store                      fcntl.h libpq-fe.h sqlite3.h sys/stat.h sys/vfs.h unistd.h)
-set(GUMCERT_THIRD_PARTY_archive                            nlohmann)
+set(GUMCERT_THIRD_PARTY_archive                            fmt nlohmann)
 set(GUMCERT_THIRD_PARTY_outputs                            fcntl.h nlohmann sys/stat.h unistd.h)
 set(GUMCERT_THIRD_PARTY_evaluation                         Eigen gumcert_build_info.h nlohmann)
-set(GUMCERT_THIRD_PARTY_issuing)
-set(GUMCERT_THIRD_PARTY_archive_certificates               nlohmann)
+set(GUMCERT_THIRD_PARTY_issuing                            nlohmann)
+set(GUMCERT_THIRD_PARTY_archive_certificates               fmt nlohmann)
 set(GUMCERT_THIRD_PARTY_self_test                          nlohmann)
-set(GUMCERT_THIRD_PARTY_app                                nlohmann)
+set(GUMCERT_THIRD_PARTY_manual                             CLI fmt)
 set(GUMCERT_THIRD_PARTY_app_cli_terminal                   fcntl.h fmt gumcert_build_info.h gumcert_templates.h
                                                            nlohmann sys/resource.h unistd.h)
 set(GUMCERT_THIRD_PARTY_app_cli_archive                    fmt gumcert_build_info.h nlohmann)
-set(GUMCERT_THIRD_PARTY_app_cli                            CLI fmt gnu gumcert_build_info.h gumcert_made_with.h
-                                                           gumcert_templates.h link.h nlohmann sys/utsname.h)
+set(GUMCERT_THIRD_PARTY_app_cli                            CLI fmt gumcert_build_info.h gumcert_made_with.h
+                                                           gumcert_templates.h nlohmann)
 
 # Layers that may open files; the others are handed what they need and hand back what they made.
-set(GUMCERT_MAY_TOUCH_FILES encoding system jobs jobs/budget jobs/circle_closure jobs/rotary_table jobs/comparison reports/forms signing archive/store outputs evaluation archive/certificates self_test app app/cli/terminal app/cli/archive app/cli)
+set(GUMCERT_MAY_TOUCH_FILES encoding system jobs jobs/budget jobs/circle_closure jobs/rotary_table jobs/comparison reports/forms signing archive/store outputs evaluation archive/certificates self_test app/cli/terminal app/cli/archive app/cli)
 
 # Never in a header of any layer: what they bring must stay behind the layer's own types.
 set(GUMCERT_NOT_IN_HEADERS boost ceres libpq-fe.h sqlite3.h)

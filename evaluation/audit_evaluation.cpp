@@ -64,6 +64,24 @@ bool is_refuted_by_audit(const Evaluation& evaluation) {
                        [](const certificate::Finding& found) { return !found.id.starts_with("audit-N"); });
 }
 
+std::vector<gum::Diagnostic> critical_messages(const Evaluation& evaluation) {
+    std::vector<gum::Diagnostic> messages;
+    if (evaluation.record.certificate || !evaluation.audit) {
+        return messages;
+    }
+    for (const audit::AuditFinding& finding : evaluation.audit->findings) {
+        if (audit::is_open_critical(finding, evaluation.audit->subject.waivers)) {
+            messages.push_back({.code = "GC-AUDIT-0020",
+                                .where = "audit " + finding.rule + ", " + finding.where,
+                                .what = finding.what.english(),
+                                .rule = "a critical finding: an assessor would not accept this result",
+                                .action = finding.correction,
+                                .severity = gum::Severity::warning});
+        }
+    }
+    return messages;
+}
+
 void audit_evaluation(Evaluation& evaluation, const std::string& job_file) {
     const std::span<const audit::Rule> rules = audit::all_rules();
     audit::AuditSubject subject = audit::subject_of(evaluation.record, job_file);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "evaluation/evaluation_task.h"
+#include "gum/quantity/diagnostic.h"
 #include "reports/audit/audit_view.h"
 
 namespace gumcert::evaluation {
@@ -18,6 +19,9 @@ void audit_evaluation(Evaluation& evaluation, const std::string& job_file);
 /// Whether the audit itself, beside the gates of a certificate, left a critical finding that nobody accepts. Of a
 /// comparison the scores are the answer, and what the audit says of them is not another one: false.
 [[nodiscard]] bool is_refuted_by_audit(const Evaluation& evaluation);
+
+/// Open critical findings of the audit as messages, GC-AUDIT-0020; none of a certificate, which has them among its findings.
+[[nodiscard]] std::vector<gum::Diagnostic> critical_messages(const Evaluation& evaluation);
 
 /// Audits as documents of this program show them.
 /// \param digests  SHA-256 of the audited files, in the order of the reports; none, or "": it is not printed

@@ -16,7 +16,7 @@ struct LibraryVersion {
     std::string sha256 = {};  ///< of its file; "": it is a part of the program
 };
 
-/// Which program ran where. The caller finds it out: libraries read neither the clock nor the machine.
+/// Which program ran where. The caller finds it out: nothing here reads the clock or asks the machine.
 struct TestedSystem {
     std::string date = {};  ///< UTC, "2026-11-24T18:55:00Z"
     std::string name = {}, version = {}, commit = {}, compiler = {};

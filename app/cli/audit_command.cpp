@@ -11,12 +11,13 @@
 #include <string_view>
 #include <utility>
 
-#include "app/cli/terminal/name_job.h"
 #include "app/cli/terminal/output_places.h"
 #include "app/cli/terminal/share_folder.h"
 #include "audit/rules/registry.h"
 #include "evaluation/audit_evaluation.h"
 #include "evaluation/audit_files.h"
+#include "evaluation/name_job.h"
+#include "outputs/kept_files.h"
 #include "outputs/output_files.h"
 #include "reports/audit/audit_document.h"
 #include "reports/audit/audit_html.h"
@@ -164,7 +165,7 @@ ExitCode audit_files(const std::vector<std::string>& files, const AuditOptions& 
         outputs.push_back(file);
     }
     if (!to.files.empty()) {
-        outputs.push_back(kept_place(numbers_file(to)));
+        outputs.push_back(outputs::kept_place(numbers_file(to)));
     }
     outputs::require_not_inputs(outputs, all);
     const outputs::OutputsAtStart at_start = begin_outputs(outputs, common);
@@ -187,8 +188,8 @@ ExitCode audit_files(const std::vector<std::string>& files, const AuditOptions& 
             if (attempt.failure) {
                 unaudited.push_back(
                     {.file = files_to_audit.files[i].file.string(), .because = reason_of(attempt.failure)});
-                naming_job(files_to_audit.files[i].file, files_to_audit.files.size() > 1,
-                           [&] { std::rethrow_exception(attempt.failure); });
+                evaluation::naming_job(files_to_audit.files[i].file, files_to_audit.files.size() > 1,
+                                       [&] { std::rethrow_exception(attempt.failure); });
             }
             views.push_back(std::move(*attempt.view));
             return attempt.has_critical ? negative_answer : done;
@@ -213,7 +214,7 @@ ExitCode audit_files(const std::vector<std::string>& files, const AuditOptions& 
     }
     add_program_files(inputs, options.share);
     std::vector<outputs::OutputFile> written;
-    make_or_keep(
+    outputs::make_or_keep(
         [&] {
             for (const auto& [form, file] : to.files) {
                 written.push_back({.path = file, .bytes = rendered(view, form, options, run)});

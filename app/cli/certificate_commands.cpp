@@ -3,21 +3,21 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-
 #include <cstdint>
 #include <filesystem>
 #include <utility>
 
 #include "app/cli/terminal/clock.h"
-#include "app/cli/terminal/name_job.h"
 #include "app/cli/terminal/output_places.h"
 #include "app/cli/terminal/share_folder.h"
 #include "evaluation/check_file.h"
+#include "evaluation/name_job.h"
 #include "evaluation/read_file.h"
 #include "imports/foreign_certificate.h"
 #include "imports/import_certificate.h"
 #include "imports/import_standard.h"
 #include "issuing/document_identity.h"
+#include "issuing/verification_text.h"
 #include "jobs/laboratory/laboratory_folder.h"
 #include "outputs/output_files.h"
 #include "outputs/output_set.h"
@@ -29,64 +29,6 @@ namespace gumcert::cli {
 namespace fs = std::filesystem;
 
 namespace {
-
-void print_signature(const signing::SignatureReport& signature, const std::string& of) {
-    print_to_stdout("  {}{}: {}\n", of, signature.format, signature.valid ? "valid" : "NOT VALID");
-    print_to_stdout("    signer      {}\n", signature.signer.empty() ? "not stated" : signature.signer);
-    print_to_stdout("    issued by   {}\n", signature.issuer.empty() ? "not stated" : signature.issuer);
-    print_to_stdout("    time        {}\n", signature.signing_time.empty()
-                                                ? "not stated"
-                                                : signature.signing_time + " (as the signer states it)");
-    print_to_stdout("    algorithm   {}\n", signature.algorithm);
-    for (const std::string& part : signature.covers) {
-        print_to_stdout("    covers      {}\n", part);
-    }
-    for (const std::string& part : signature.not_covered) {
-        print_to_stdout("    not covered {}\n", part);
-    }
-}
-
-void print_identity(const issuing::DocumentIdentity& identity) {
-    const auto row = [](const char* name, const std::string& text) {
-        if (!text.empty()) {
-            print_to_stdout("  {:<12}{}\n", name, text);
-        }
-    };
-    const bool days = !identity.performed_to.empty() && identity.performed_to != identity.performed_from;
-    row("number", identity.number + (identity.attached ? " (of the digital certificate in it)" : ""));
-    row("laboratory", identity.laboratory);
-    row("item", identity.item);
-    row("performed", identity.performed_from + (days ? " to " + identity.performed_to : ""));
-    row("issued", identity.issued);
-    row("state", identity.state);
-}
-
-void print_verification(const std::string& file, const signing::Verification& verification,
-                        const std::vector<issuing::DocumentIdentity>& identities, const CommonOptions& common) {
-    for (const auto* signatures : {&verification.signatures, &verification.attachment_signatures}) {
-        for (const signing::SignatureReport& signature : *signatures) {
-            print_messages(signature.findings, common);
-        }
-    }
-    if (common.quiet) {
-        return;
-    }
-    const bool attachment_alone = verification.signatures.empty() && !verification.attachment_signatures.empty();
-    print_to_stdout("{}: {}\n", text::one_line(file),
-                    verification.valid ? "valid"
-                    : attachment_alone ? "NOT VALID: the pages are not signed, only what is attached to them"
-                    : verification.signatures.empty() ? "not signed"
-                                                      : "NOT VALID");
-    for (const issuing::DocumentIdentity& identity : identities) {
-        print_identity(identity);
-    }
-    for (const signing::SignatureReport& signature : verification.signatures) {
-        print_signature(signature, "");
-    }
-    for (const signing::SignatureReport& signature : verification.attachment_signatures) {
-        print_signature(signature, "attached certificate, ");
-    }
-}
 
 imports::CertificateTrust trust_of(const std::string& trust_store) {
     imports::CertificateTrust trust{.trusted = {}, .now = seconds_now()};
@@ -175,14 +117,14 @@ ExitCode check_files(const std::vector<std::string>& files, bool certificates, c
                 check.findings = imports::check_certificate(evaluation::read_file(file), file, trust);
             } else {
                 ProgressLine progress(!common.quiet);
-                check = naming_job(file, several, [&] {
+                check = evaluation::naming_job(file, several, [&] {
                     return evaluation::check_file(
                         file, static_cast<unsigned>(common.threads), templates_folder(share),
                         [&](const std::string& text) { progress(text); }, laboratory);
                 });
             }
             if (several) {
-                check.findings = of_job(std::move(check.findings), file);
+                check.findings = evaluation::of_job(std::move(check.findings), file);
             }
             return print_check(file, check, common);
         });
@@ -210,7 +152,14 @@ ExitCode verify_files(const std::vector<std::string>& files, const std::string& 
             for (const gum::Diagnostic& doubt : outputs::doubts_about_set(file, bytes)) {
                 print_message(doubt, common);
             }
-            print_verification(file, verification, identities, common);
+            for (const auto* signatures : {&verification.signatures, &verification.attachment_signatures}) {
+                for (const signing::SignatureReport& signature : *signatures) {
+                    print_messages(signature.findings, common);
+                }
+            }
+            if (!common.quiet) {
+                print_to_stdout("{}", issuing::verification_text(file, verification, identities));
+            }
             return verification.valid ? done : negative_answer;
         });
         code = std::max(code, one);

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "archive/store/open_store.h"
+#include "certificate/localised_text.h"
 #include "evaluation/kinds.h"
 #include "issuing/output_forms.h"
 #include "text/lists.h"
@@ -69,6 +70,27 @@ std::string kinds_in_words() {
     return text::all_of({words.begin(), words.end()});
 }
 
+/// The languages that documents are printed in.
+struct Languages {
+    std::vector<std::string> codes{certificate::k_languages.begin(), certificate::k_languages.end()};
+    /// "en, de, zh-Hant, es".
+    [[nodiscard]] std::string in_words() const {
+        std::string words;
+        for (const std::string& code : codes) {
+            words += (words.empty() ? "" : ", ") + code;
+        }
+        return words;
+    }
+    [[nodiscard]] CLI::IsMember check() const { return CLI::IsMember(codes); }
+};
+
+/// --format of what people and programs read on the terminal.
+void add_form_of_answer(CLI::App& command, std::string& format) {
+    command.add_option("--format", format, "text (for people), json or csv (for programs). Default: text")
+        ->type_name("FORM")
+        ->check(CLI::IsMember({"text", "json", "csv"}));
+}
+
 CLI::Option& add_file(CLI::App& command, const std::string& names, std::string& file, const std::string& help) {
     return *command.add_option(names, file, help)->type_name("FILE");
 }
@@ -122,12 +144,12 @@ void add_common(CLI::App& command, CommonOptions& common) {
 void add_document_options(CLI::App& command, DocumentOptions& options) {
     command
         .add_option("--language", options.languages,
-                    "Languages of the documents, the binding one first, at most two: en, de, zh-Hant, es. "
-                    "Default: those of the certificate data, else en")
+                    "Languages of the documents, the binding one first, at most two: " + Languages().in_words() +
+                        ". Default: those of the certificate data, else en")
         ->delimiter(',')
         ->allow_extra_args(false)
         ->type_name("LANGUAGE")
-        ->check(CLI::IsMember({"en", "de", "zh-Hant", "es"}));
+        ->check(Languages().check());
     command.add_flag("--draft", options.draft,
                      "Print a certificate that critical findings block, marked as a draft, with the findings on it");
     add_file(command, "--sign", options.signer,
@@ -297,10 +319,11 @@ void add_audit(CLI::App& program, Arguments& a) {
         ->type_name("FORM")
         ->check(CLI::IsMember({"text", "json", "sarif", "html", "pdf"}));
     command
-        .add_option("--language", a.audit.languages, "Language of text, HTML and PDF: en, de, zh-Hant, es. Default: en")
+        .add_option("--language", a.audit.languages,
+                    "Language of text, HTML and PDF: " + Languages().in_words() + ". Default: en")
         ->expected(1)
         ->type_name("LANGUAGE")
-        ->check(CLI::IsMember({"en", "de", "zh-Hant", "es"}));
+        ->check(Languages().check());
     add_file(
         command, "--waivers", a.audit.waivers,
         "Findings that somebody accepts, with name, date and reason (JSON): they are shown as accepted, and do not "
@@ -478,9 +501,7 @@ void add_laboratory_command(CLI::App& program, Arguments& a) {
         ->check(CLI::ExistingDirectory);
     command.add_option("--date", a.date, "Day of the overview, such as 2026-11-21; default: today by UTC")
         ->type_name("DAY");
-    command.add_option("--format", a.format, "text (for people), json or csv (for programs). Default: text")
-        ->type_name("FORM")
-        ->check(CLI::IsMember({"text", "json", "csv"}));
+    add_form_of_answer(command, a.format);
     command.footer(
         "Example: gumcert laboratory examples/laboratory/laboratory --date 2026-11-21\n"
         "Of every standard: last calibration and certificate up to that day, the last day of use, the next "
@@ -503,9 +524,10 @@ void add_self_test(CLI::App& program, Arguments& a) {
         .add_option("--case", a.cases, "Only this case, with all of its values on the terminal; no report is written")
         ->allow_extra_args(false)
         ->type_name("NAME");
-    command.add_option("--language", a.language, "Language of HTML and PDF: en, de, zh-Hant, es. Default: en")
+    command
+        .add_option("--language", a.language, "Language of HTML and PDF: " + Languages().in_words() + ". Default: en")
         ->type_name("LANGUAGE")
-        ->check(CLI::IsMember({"en", "de", "zh-Hant", "es"}));
+        ->check(Languages().check());
     add_share(command, a.share);
     command.footer(
         "Example: gumcert self-test\n"
@@ -521,9 +543,7 @@ void add_rerun(CLI::App& program, Arguments& a) {
     CLI::App& command =
         *program.add_subcommand("rerun", "Evaluate the jobs in old records with this version, and list what changed");
     command.add_option("RECORD", a.records, "Record files (JSON) of any version")->required();
-    command.add_option("--format", a.format, "text (for people), json or csv (for programs). Default: text")
-        ->type_name("FORM")
-        ->check(CLI::IsMember({"text", "json", "csv"}));
+    add_form_of_answer(command, a.format);
     add_share(command, a.share);
     command.footer(
         "Example: gumcert rerun archive/*/record.json\n"

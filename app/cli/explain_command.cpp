@@ -1,12 +1,11 @@
 #include "app/cli/explain_command.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <filesystem>
 #include <utility>
 
 #include "app/cli/terminal/share_folder.h"
-#include "app/limits.h"
+#include "evaluation/limits.h"
 #include "evaluation/read_file.h"
 #include "gum/quantity/diagnostic.h"
 #include "reports/message_explanation.h"
@@ -65,21 +64,7 @@ ExitCode explain(const std::vector<std::string>& words, const std::string& share
 }
 
 ExitCode list_limits() {
-    const std::vector<app::Limit> limits = app::limits();
-    std::size_t width = 0;
-    for (const app::Limit& limit : limits) {
-        width = std::max(width, limit.value().size());
-    }
-    std::string text;
-    std::string_view last;
-    for (const app::Limit& limit : limits) {
-        if (limit.applies_to != last) {
-            text += (last.empty() ? "" : "\n") + std::string(limit.applies_to) + ":\n";
-            last = limit.applies_to;
-        }
-        text += fmt::format("{:>{}}  {}\n", limit.value(), width + 2, limit.what);
-    }
-    write_to_stdout(text);
+    write_to_stdout(evaluation::limits_text());
     return done;
 }
 

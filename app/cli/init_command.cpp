@@ -6,20 +6,20 @@
 
 #include "app/cli/terminal/output_places.h"
 #include "app/cli/terminal/share_folder.h"
-#include "app/method_library.h"
+#include "evaluation/method_library.h"
 #include "text/visible_text.h"
 
 namespace gumcert::cli {
 
 namespace {
 
-std::string list_of(const std::vector<app::Method>& methods) {
+std::string list_of(const std::vector<evaluation::Method>& methods) {
     std::size_t longest = 0;
-    for (const app::Method& method : methods) {
+    for (const evaluation::Method& method : methods) {
         longest = std::max(longest, method.name.size());
     }
     std::string text = "Methods:\n\n";
-    for (const app::Method& method : methods) {
+    for (const evaluation::Method& method : methods) {
         text += fmt::format("  {:<{}}  {}\n", method.name, longest, method.title);
     }
     return text + "\nNext: gumcert init " + methods.front().name + " FOLDER\n";
@@ -29,15 +29,15 @@ std::string list_of(const std::vector<app::Method>& methods) {
 
 ExitCode init(const std::string& method, const std::string& folder, const std::string& share,
               const CommonOptions& common) {
-    const std::vector<app::Method> methods = app::method_library(examples_folder(share));
+    const std::vector<evaluation::Method> methods = evaluation::method_library(examples_folder(share));
     if (method.empty()) {
         write_to_stdout(list_of(methods));
         return done;
     }
     const auto found =
-        std::find_if(methods.begin(), methods.end(), [&](const app::Method& one) { return one.name == method; });
+        std::find_if(methods.begin(), methods.end(), [&](const evaluation::Method& one) { return one.name == method; });
     if (found == methods.end()) {
-        const std::string nearest = app::nearest_method(methods, method);
+        const std::string nearest = evaluation::nearest_method(methods, method);
         refuse_usage("init " + method, "is none of the methods that come with the program",
                      "a method is a folder with a job that runs; gumcert init lists them",
                      nearest.empty() ? "choose one of the list" : "did you mean " + nearest + "?");
@@ -45,7 +45,7 @@ ExitCode init(const std::string& method, const std::string& folder, const std::s
     refuse_stdout("DIR", folder);
     const std::filesystem::path place = folder.empty() ? method : folder;
     (void)begin_outputs({place / found->job}, common);  // nothing that stands there is replaced
-    const std::vector<std::filesystem::path> written = app::begin_with(*found, place);
+    const std::vector<std::filesystem::path> written = evaluation::begin_with(*found, place);
     if (!common.quiet) {
         std::string text = found->title + "\n\nWritten:\n";
         for (const std::filesystem::path& file : written) {

@@ -6,36 +6,35 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 #include <utility>
 
-#include "app/cli/summary.h"
 #include "app/cli/terminal/clock.h"
-#include "app/cli/terminal/name_job.h"
 #include "app/cli/terminal/output_places.h"
 #include "app/cli/terminal/share_folder.h"
 #include "archive/printed_head.h"
-#include "certificate/gates/day_of_issue.h"
-#include "certificate/gates/gates.h"
-#include "certificate/gates/printed_languages.h"
 #include "evaluation/audit_evaluation.h"
 #include "evaluation/check_file.h"
 #include "evaluation/evaluate_job.h"
+#include "evaluation/name_job.h"
+#include "evaluation/needed_memory.h"
 #include "evaluation/read_file.h"
 #include "evaluation/recompute_record.h"
 #include "evaluation/unprintable_characters.h"
 #include "issuing/issue_documents.h"
+#include "issuing/judge_issue.h"
+#include "issuing/run_files.h"
+#include "outputs/kept_files.h"
 #include "outputs/output_files.h"
 #include "outputs/output_set.h"
-#include "reports/audit/audit_html.h"
 #include "reports/forms/document_forms.h"
-#include "reports/forms/record_sentences.h"
 #include "reports/forms/study_document.h"
 #include "reports/record/evaluation_record.h"
-#include "reports/view/named_tables.h"
+#include "reports/summary/record_summary.h"
 #include "text/visible_text.h"
 
 namespace gumcert::cli {
@@ -114,28 +113,15 @@ private:
     issuing::IssueOptions options_;
 };
 
-/// Says of a job that it takes much memory, before it does.
-/// \throws gum::StorageError  GC-STORE-0026 where it is more than the command may take
+/// \throws gum::StorageError  GC-STORE-0026 where a job takes more memory than the command may
 void tell_memory(const evaluation::ReadJob& job, const CommonOptions& common) {
-    constexpr double k_told = 1e9;  // [byte]
-    constexpr double k_megabyte = 1e6;
-    const bool is_too_much =
-        common.memory_limit.value_or(0) > 0 && job.memory > static_cast<double>(*common.memory_limit);
-    if (!is_too_much && job.memory < k_told) {
-        return;
+    const std::optional<gum::Diagnostic> needed = evaluation::needed_memory(job, common.memory_limit.value_or(0));
+    if (needed && needed->severity == gum::Severity::error) {
+        throw gum::StorageError(*needed);
     }
-    const gum::Diagnostic needed{
-        .code = "GC-STORE-0026",
-        .where = job.names.front(),
-        .what = fmt::format("its evaluation takes about {:.0f} MB of memory", job.memory / k_megabyte),
-        .rule = "it grows as the number of results times that of inputs, or as the square of the angles",
-        .action = is_too_much ? "split the job, or give it more by --memory-limit"
-                              : "split the job where the machine has less",
-        .severity = is_too_much ? gum::Severity::error : gum::Severity::note};
-    if (is_too_much) {
-        throw gum::StorageError(needed);
+    if (needed) {
+        print_messages({&*needed, 1}, common);
     }
-    print_messages({&needed, 1}, common);
 }
 
 void print_warnings(const Issuer& issuer, const CommonOptions& common) {
@@ -151,74 +137,23 @@ void print_written(const std::vector<outputs::OutputFile>& files) {
     }
 }
 
-/// A certificate that is dated later than today is not issued: reported here, and not in the record, which is the
-/// same on every day.
-/// Judges what the record cannot know: the day, the languages that are asked for, and the numbers of tables.
+/// What documents are judged by: templates and languages.
 void judge_issue(reports::EvaluationRecord& record, const std::vector<std::string>& languages,
                  const std::string& share) {
-    if (!record.certificate) {
-        return;
-    }
-    const bool too_early = certificate::block_issue_ahead_of_time(*record.certificate, today());
-    const bool lacking = certificate::judge_printed_languages(*record.certificate, languages);
-    std::vector<certificate::Finding> of_tables;
-    if (reports::names_tables_before_adjustment(*record.certificate)) {  // their numbers are those of the document
-        const reports::RenderAssets assets = render_assets(share, languages);
-        of_tables =
-            reports::findings_on_named_tables(*record.certificate, reports::view_of_document(record, assets),
-                                              languages.empty() ? record.certificate->data.languages : languages);
-        certificate::add_findings(*record.certificate, of_tables);
-    }
-    if (too_early || lacking || !of_tables.empty()) {  // what was found now has to be worded, too
-        reports::identify_sentences(record, *reports::read_sentences(templates_folder(share)));
-    }
-}
-
-bool withheld(const reports::EvaluationRecord& record, bool draft) {
-    return record.certificate && record.certificate->blocked && !draft;
+    reports::RenderAssets assets;
+    assets.templates = templates_folder(share);
+    assets.languages = languages;
+    issuing::judge_issue(record, today(), assets);
 }
 
 /// Says why no document is written, and which old ones must not be taken for it.
 void report_withheld(const std::string& where, const std::vector<fs::path>& documents, const CommonOptions& common) {
-    print_message({.code = "GC-CERT-0305",
-                   .where = where,
-                   .what = "no document is written: critical findings block the issue of the certificate",
-                   .rule = "ISO/IEC 17025:2017, 7.8",
-                   .action = "mend what the findings say, or print a draft with --draft",
-                   .severity = gum::Severity::error},
-                  common);
+    print_message(issuing::withheld(where), common);
     for (const fs::path& file : documents) {
         std::error_code error;
         if (fs::exists(file, error)) {
-            print_message({.code = "GC-CERT-0306",
-                           .where = file.string(),
-                           .what = "is a document of an earlier evaluation",
-                           .rule = "the record beside it is the new one",
-                           .action = "remove it, so that nobody takes it for the document of this record",
-                           .severity = gum::Severity::warning},
-                          common);
+            print_message(issuing::document_of_earlier(file.string()), common);
         }
-    }
-}
-
-/// The audit as run writes it beside the record.
-constexpr const char* k_audit_file = "audit.html";
-
-/// Critical findings of the audit, where no certificate has them among its own findings; then how many there are of each
-/// severity.
-void report_audit(const evaluation::Evaluation& evaluation, const CommonOptions& common) {
-    const audit::AuditReport& report = *evaluation.audit;
-    for (const audit::AuditFinding& finding : report.findings) {
-        if (evaluation.record.certificate || !audit::is_open_critical(finding, report.subject.waivers)) {
-            continue;
-        }
-        print_message({.code = "GC-AUDIT-0020",
-                       .where = "audit " + finding.rule + ", " + finding.where,
-                       .what = finding.what.english(),
-                       .rule = "a critical finding: an assessor would not accept this result",
-                       .action = finding.correction,
-                       .severity = gum::Severity::warning},
-                      common);
     }
 }
 
@@ -229,15 +164,6 @@ void print_audit(const audit::AuditReport& report, const fs::path& where_to_read
     }
     print_to_stdout("Audit: {} critical, {} major, {} minor, {} to know; {}\n", counts[3], counts[2], counts[1],
                     counts[0], text::one_line(where_to_read.string()));
-}
-
-/// Documents of a kind of records as they stand in a folder.
-std::vector<fs::path> document_files(const evaluation::Kind& kind, const fs::path& folder) {
-    std::vector<fs::path> files;
-    for (const std::string& name : issuing::document_names(kind)) {
-        files.push_back(folder / name);
-    }
-    return files;
 }
 
 /// \param inputs   of the command, in addition to the files of the job
@@ -255,62 +181,53 @@ bool run_job(const fs::path& job, const fs::path& folder, std::vector<fs::path> 
             progress("characters of the documents");
             const std::vector<gum::Diagnostic> warnings = issuer.look_at(read);
             progress.clear();
-            print_messages(several ? of_job(warnings, job) : warnings, common);
+            print_messages(several ? evaluation::of_job(warnings, job) : warnings, common);
         });
     const reports::EvaluationRecord& record = evaluation.record;
-    const std::vector<fs::path> documents =
-        document_files(evaluation::kind_of(record, evaluation::program_kinds()), folder);
-    std::vector<outputs::OutputFile> files{{folder / "record.json", reports::to_canonical_json(record)}};
+    std::vector<outputs::OutputFile> files = issuing::evaluated_files(evaluation, folder);
     judge_issue(evaluation.record, options.languages, options.share);  // the record is written as it is on every day
-    if (!evaluation.covariance.empty()) {
-        files.push_back({folder / evaluation.covariance_file, evaluation.covariance});
-    }
     for (const fs::path& file : evaluation::input_files(job, record, options.laboratory)) {
         inputs.push_back(file);
     }
-    const bool held_back = withheld(record, options.draft);
+    const bool held_back = issuing::is_withheld(record, options.draft);
     const auto make_documents = [&] {
-        files.push_back(
-            {folder / k_audit_file, reports::audit_as_html(evaluation::audit_view(std::span(evaluation.audit.get(), 1),
-                                                                                  {record.job_files.front().sha256}),
-                                                           issuer.options().assets)});
+        files.push_back(issuing::audit_file(evaluation, folder, issuer.options().assets));
         if (!held_back) {
             progress("documents");
-            std::vector<issuing::IssuedDocument> issued = issuing::issue_documents(record, issuer.options());
-            for (std::size_t i = 0; i < issued.size(); ++i) {
-                files.push_back({documents[i], std::move(issued[i].bytes)});
-            }
+            std::vector<outputs::OutputFile> documents = issuing::document_files(record, folder, issuer.options());
+            std::move(documents.begin(), documents.end(), std::back_inserter(files));
         }
         return true;
     };
-    make_or_keep([&] { (void)naming_job(job, several, make_documents); },
-                 [&] {
-                     progress.clear();
-                     keep_files(files, inputs, at_start, "is the record of this evaluation",
-                                "print the record in another form: gumcert render " +
-                                    kept_place(files.front().path).string() + " --format html",
-                                common);
-                 });
+    outputs::make_or_keep([&] { (void)evaluation::naming_job(job, several, make_documents); },
+                          [&] {
+                              progress.clear();
+                              keep_files(files, inputs, at_start, "is the record of this evaluation",
+                                         "print the record in another form: gumcert render " +
+                                             outputs::kept_place(files.front().path).string() + " --format html",
+                                         common);
+                          });
     progress("writing");
     write_outputs(files, inputs, at_start);
     progress.clear();
     if (several) {  // the files are written: from here on the record is for the terminal only
-        evaluation.record.diagnostics = of_job(std::move(evaluation.record.diagnostics), job);
+        evaluation.record.diagnostics = evaluation::of_job(std::move(evaluation.record.diagnostics), job);
     }
     report_diagnostics(record, common);
     report_findings(record, common);
-    report_audit(evaluation, common);
-    report_kept(folder / "record.json", common);
+    print_messages(evaluation::critical_messages(evaluation), common);
+    report_kept(folder / issuing::k_record_file, common);
     if (held_back) {
-        report_withheld(job.string(), documents, common);
+        report_withheld(job.string(),
+                        issuing::document_places(evaluation::kind_of(record, evaluation::program_kinds()), folder),
+                        common);
     }
     if (!common.quiet) {
-        print_summary(record);
-        print_audit(*evaluation.audit, folder / k_audit_file);
+        print_to_stdout("{}", reports::summary_text(record));
+        print_audit(*evaluation.audit, folder / issuing::k_audit_file);
         print_written(files);
     }
-    return evaluation.negative || evaluation.blocked || evaluation::is_refuted_by_audit(evaluation) ||
-           (record.certificate && record.certificate->blocked);
+    return issuing::is_negative(evaluation);
 }
 
 fs::path folder_of(const fs::path& job, const std::string& output, bool several) {
@@ -375,7 +292,7 @@ ExitCode render_record(const std::string& name, const std::string& format, const
             name, options.superseded_by);
     }
     judge_issue(record, options.languages, options.share);
-    if (issuing::output_form(format).is_issued && withheld(record, options.draft)) {
+    if (issuing::output_form(format).is_issued && issuing::is_withheld(record, options.draft)) {
         report_findings(record, common);
         report_withheld(name, {file}, common);
         return negative_answer;
@@ -409,7 +326,7 @@ void require_ready(Issuer& issuer, const std::vector<std::string>& jobs, const D
                     .findings;
             std::erase_if(found, [](const gum::Diagnostic& d) { return d.severity != gum::Severity::error; });
             if (!found.empty()) {
-                throw gum::InputError(jobs.size() > 1 ? of_job(std::move(found), job) : std::move(found));
+                throw gum::InputError(jobs.size() > 1 ? evaluation::of_job(std::move(found), job) : std::move(found));
             }
         }
         throw;
@@ -421,7 +338,7 @@ ExitCode run_jobs(const std::vector<std::string>& jobs, const DocumentOptions& o
     std::vector<fs::path> folders;
     for (const std::string& job : jobs) {
         folders.push_back(folder_of(job, options.output, jobs.size() > 1));
-        outputs::require_writable(folders.back() / "record.json");
+        outputs::require_writable(folders.back() / issuing::k_record_file);
     }
     require_different(folders, "jobs");
     Issuer issuer(options);
@@ -429,11 +346,11 @@ ExitCode run_jobs(const std::vector<std::string>& jobs, const DocumentOptions& o
     inputs.insert(inputs.end(), jobs.begin(), jobs.end());
     std::vector<fs::path> outputs;
     for (const fs::path& folder : folders) {
-        for (const fs::path& file : {folder / "record.json", folder / "covariance.csv", folder / k_audit_file}) {
-            outputs.insert(outputs.end(), {file, kept_place(file)});
+        for (const fs::path& file : issuing::evaluated_places(folder)) {
+            outputs.insert(outputs.end(), {file, outputs::kept_place(file)});
         }
         for (const evaluation::Kind& kind : evaluation::program_kinds()) {
-            const std::vector<fs::path> documents = document_files(kind, folder);
+            const std::vector<fs::path> documents = issuing::document_places(kind, folder);
             outputs.insert(outputs.end(), documents.begin(), documents.end());
         }
     }
@@ -446,7 +363,7 @@ ExitCode run_jobs(const std::vector<std::string>& jobs, const DocumentOptions& o
     for (std::size_t i = 0; i < jobs.size(); ++i) {
         const ExitCode one = explained(common, [&] {
             const bool several = jobs.size() > 1;
-            const bool is_negative = naming_job(jobs[i], several, [&] {
+            const bool is_negative = evaluation::naming_job(jobs[i], several, [&] {
                 return run_job(jobs[i], folders[i], inputs, at_start, issuer, options, common, progress, several);
             });
             return is_negative ? negative_answer : done;
@@ -483,12 +400,11 @@ ExitCode evaluate_to_record(const fs::path& job, const DocumentOptions& options,
     progress.clear();
     const bool blocked =
         evaluation.blocked || (evaluation.record.certificate && evaluation.record.certificate->blocked);
-    const bool negative = evaluation.negative || blocked || evaluation::is_refuted_by_audit(evaluation);
-    const ExitCode code = negative ? negative_answer : done;
+    const ExitCode code = issuing::is_negative(evaluation) ? negative_answer : done;
     if (to_stdout) {
         report_diagnostics(evaluation.record, common);
         report_findings(evaluation.record, common);
-        report_audit(evaluation, common);
+        print_messages(evaluation::critical_messages(evaluation), common);
         write_to_stdout(text);
         return code;
     }
@@ -502,9 +418,9 @@ ExitCode evaluate_to_record(const fs::path& job, const DocumentOptions& options,
     write_outputs(files, inputs, at_start);
     report_diagnostics(evaluation.record, common);
     report_findings(evaluation.record, common);
-    report_audit(evaluation, common);
+    print_messages(evaluation::critical_messages(evaluation), common);
     if (!common.quiet) {
-        print_summary(evaluation.record);
+        print_to_stdout("{}", reports::summary_text(evaluation.record));
         print_audit(*evaluation.audit, "gumcert audit " + record_file.string() + " -o audit.html shows them");
         print_written(files);
         print_to_stdout("Next: gumcert render {} --format pdf{}\n", text::one_line(record_file.string()),

@@ -1,18 +1,19 @@
 #include "app/cli/laboratory_command.h"
 
 #include "app/cli/terminal/clock.h"
-#include "app/laboratory_overview.h"
+#include "evaluation/laboratory_overview.h"
 
 namespace gumcert::cli {
 
 ExitCode show_laboratory(const std::string& folder, const std::string& day, const std::string& format) {
-    if (!day.empty() && !app::is_day(day)) {
+    if (!day.empty() && !evaluation::is_day(day)) {
         refuse_usage("--date " + day, "is no date", "a day is written as 2026-11-21", "correct it");
     }
-    const app::LaboratoryOverview overview = app::laboratory_overview(folder, day.empty() ? today() : day);
-    write_to_stdout(format == "json"  ? app::overview_json(overview)
-                    : format == "csv" ? app::overview_csv(overview)
-                                      : app::overview_text(overview, folder, day.empty() ? "today by UTC" : ""));
+    const evaluation::LaboratoryOverview overview =
+        evaluation::laboratory_overview(folder, day.empty() ? today() : day);
+    write_to_stdout(format == "json"  ? evaluation::overview_json(overview)
+                    : format == "csv" ? evaluation::overview_csv(overview)
+                                      : evaluation::overview_text(overview, folder, day.empty() ? "today by UTC" : ""));
     return overview.is_overdue() ? negative_answer : done;
 }
 

@@ -6,12 +6,10 @@
 #include <gumcert_templates.h>
 
 #include <algorithm>
-#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <system_error>
 
-#include "app/cli/machine.h"
 #include "app/cli/terminal/clock.h"
 #include "app/cli/terminal/output_places.h"
 #include "app/cli/terminal/share_folder.h"
@@ -20,9 +18,10 @@
 #include "reports/forms/pdf_worker.h"
 #include "reports/forms/template_digest.h"
 #include "reports/record/evaluation_record.h"
+#include "self_test/case_texts.h"
 #include "self_test/self_test.h"
 #include "self_test/self_test_document.h"
-#include "text/lists.h"
+#include "system/machine.h"
 #include "text/visible_text.h"
 
 namespace gumcert::cli {
@@ -31,58 +30,14 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::string source_of(const self_test::ReferenceCase& reference) {
-    constexpr std::size_t k_longest = 120;
-    return text::visible(reference.document + (reference.place.empty() ? "" : ", " + reference.place), k_longest) +
-           (reference.is_place_seen ? "" : " (not looked up)");
-}
-
-constexpr std::size_t k_longest_line = 300;  // characters of a text of a case
-
 /// One line a case; a case that fails is a message as well.
 void tell(const self_test::CaseOutcome& outcome, const CommonOptions& common) {
-    const bool passes = outcome.passes();
     if (!common.quiet) {
-        print_to_stdout("{}  {}  {}  {} of {} values\n", passes ? "pass" : "FAIL", text::visible(outcome.reference.id),
-                        source_of(outcome.reference), outcome.agreed(), outcome.values.size());
+        print_to_stdout("{}\n", self_test::case_line(outcome));
         (void)std::fflush(stdout);
     }
-    if (passes) {
-        return;
-    }
-    const auto first = std::find_if(outcome.values.begin(), outcome.values.end(),
-                                    [](const self_test::ComparedValue& value) { return !value.agrees; });
-    const std::size_t more = outcome.values.size() - outcome.agreed();
-    print_message(
-        {.code = "GC-SELF-0003",
-         .where = text::visible(outcome.reference.id),
-         .what =
-             first == outcome.values.end()
-                 ? outcome.refused
-                 : text::visible(first->expected.name() + ": " + first->because, k_longest_line) +
-                       (more > 1 ? "; and " + text::count_of(static_cast<std::int64_t>(more) - 1, "more value") : ""),
-         .rule = "every value of a published case is reached within its tolerance",
-         .action = "issue no certificate with this installation before it is explained; install the program "
-                   "again and repeat the test",
-         .severity = gum::Severity::error},
-        common);
-}
-
-void tell_values(const self_test::CaseOutcome& outcome) {
-    for (const self_test::ComparedValue& value : outcome.values) {
-        const int digits = value.expected.digits();
-        print_to_stdout("      {}  {}: {}, {} {}{}  ({})\n", value.agrees ? "pass" : "FAIL",
-                        text::visible(value.expected.name()),
-                        value.was_found ? text::visible(self_test::value_text(value.computed, 15)) : "nothing",
-                        value.expected.is_printed ? "printed" : "expected", text::visible(value.expected.text),
-                        digits > 0 ? fmt::format(", {} of {} digits", value.digits_reached, digits) : "",
-                        text::visible(value.expected.found.front(), k_longest_line));
-    }
-    for (const self_test::ExpectedValue& expected : outcome.reference.expected) {
-        if (!expected.not_compared.empty()) {
-            print_to_stdout("      not compared  {}: {}\n", text::visible(expected.name()),
-                            text::visible(expected.not_compared, k_longest_line));
-        }
+    if (!outcome.passes()) {
+        print_message(self_test::failure_of(outcome), common);
     }
 }
 
@@ -101,6 +56,19 @@ std::vector<fs::path> chosen(const std::vector<fs::path>& files, const std::vect
     return result;
 }
 
+/// The libraries of this process with SHA-256 of their files; then those that are compiled in.
+std::vector<self_test::LibraryVersion> libraries_in_use() {
+    std::vector<self_test::LibraryVersion> libraries;
+    for (const system::LoadedLibrary& loaded : system::loaded_libraries()) {
+        libraries.push_back(
+            {.name = loaded.name, .version = loaded.version, .sha256 = digest_of_program_file(loaded.file)});
+    }
+    for (const auto& [name, version] : k_compiled_in) {
+        libraries.push_back({.name = std::string(name), .version = std::string(version), .sha256 = {}});
+    }
+    return libraries;
+}
+
 self_test::TestedSystem tested_system(const fs::path& templates, const std::string& cases_digest) {
     self_test::TestedSystem system{.date = time_now(),
                                    .name = reports::Software().name,
@@ -108,8 +76,8 @@ self_test::TestedSystem tested_system(const fs::path& templates, const std::stri
                                    .commit = std::string(k_commit),
                                    .compiler = std::string(k_compiler),
                                    .executable_sha256 = executable_digest(),
-                                   .processor = processor(),
-                                   .operating_system = operating_system(),
+                                   .processor = system::processor(),
+                                   .operating_system = system::operating_system(),
                                    .libraries = libraries_in_use(),
                                    .templates_sha256 = reports::template_digest(templates)};
     system.templates_of_release = system.templates_sha256 == k_template_digest;
@@ -159,13 +127,13 @@ bool tried(const fs::path& pdf, const CommonOptions& common, const Work& work) {
 }
 
 ExitCode run_some(const std::vector<fs::path>& files, const fs::path& templates, const CommonOptions& common) {
-    const self_test::SelfTest test = self_test::run_self_test(files, static_cast<unsigned>(common.threads), templates,
-                                                              [&](const self_test::CaseOutcome& outcome) {
-                                                                  tell(outcome, common);
-                                                                  if (!common.quiet) {
-                                                                      tell_values(outcome);
-                                                                  }
-                                                              });
+    const self_test::SelfTest test = self_test::run_self_test(
+        files, static_cast<unsigned>(common.threads), templates, [&](const self_test::CaseOutcome& outcome) {
+            tell(outcome, common);
+            if (!common.quiet) {
+                print_to_stdout("{}", self_test::value_lines(outcome));
+            }
+        });
     return test.passed() == test.cases.size() ? done : negative_answer;
 }
 

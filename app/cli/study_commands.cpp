@@ -11,6 +11,7 @@
 #include "evaluation/simulate_job.h"
 #include "evaluation/study_job.h"
 #include "evaluation/unprintable_characters.h"
+#include "outputs/kept_files.h"
 #include "outputs/output_files.h"
 #include "reports/forms/pdf_worker.h"
 #include "reports/forms/study_document.h"
@@ -56,8 +57,8 @@ StudyOutput study_output(const std::string& output, const fs::path& job, const C
     }
     std::vector<fs::path> outputs{result.file};
     if (is_document(result)) {
-        outputs.push_back(kept_place(numbers_file(result.file)));
-        outputs.push_back(kept_place(text_file(result.file)));
+        outputs.push_back(outputs::kept_place(numbers_file(result.file)));
+        outputs.push_back(outputs::kept_place(text_file(result.file)));
     }
     outputs::require_writable(result.file);
     outputs::require_not_inputs(outputs, {job});
@@ -95,7 +96,7 @@ void write_study(const reports::StudyDocument& study, const StudyOutput& output,
         return;
     }
     std::string bytes;
-    make_or_keep(
+    outputs::make_or_keep(
         [&] {
             bytes = output.form == ".json"   ? study.data_json
                     : output.form == ".html" ? reports::render_html(study, output.assets)

@@ -8,16 +8,15 @@
 #include <filesystem>
 #include <fstream>
 
-#include "app/cli/command_description.h"
 #include "app/cli/command_line.h"
-#include "app/cli/manual_pages.h"
-#include "app/cli/shell_completion.h"
+#include "manual/command_description.h"
+#include "manual/manual_pages.h"
+#include "manual/shell_completion.h"
 
 namespace {
 
 namespace fs = std::filesystem;
-using namespace gumcert;       // NOLINT(google-build-using-namespace): one program, one file
-using namespace gumcert::cli;  // NOLINT(google-build-using-namespace)
+using namespace gumcert;  // NOLINT(google-build-using-namespace): one program, one file
 
 void write(const fs::path& file, const std::string& text) {
     fs::create_directories(file.parent_path());
@@ -28,15 +27,16 @@ void write(const fs::path& file, const std::string& text) {
 }
 
 void write_manual(const fs::path& folder) {
-    Arguments none;
-    const ProgramDescription program = described(*command_line(none, [] { return std::string(k_version); }));
-    const ManualImprint imprint{std::string(k_version), std::string(k_day_of_commit), GUMCERT_DESCRIPTION};
-    for (const auto& [name, page] : manual_pages(program, imprint)) {
+    cli::Arguments none;
+    const manual::ProgramDescription program =
+        manual::described(*cli::command_line(none, [] { return std::string(k_version); }));
+    const manual::ManualImprint imprint{std::string(k_version), std::string(k_day_of_commit), GUMCERT_DESCRIPTION};
+    for (const auto& [name, page] : manual::manual_pages(program, imprint)) {
         write(folder / "man1" / name, page);
     }
-    write(folder / "completion" / "gumcert", bash_completion(program));
-    write(folder / "completion" / "_gumcert", zsh_completion(program));
-    write(folder / "completion" / "gumcert.fish", fish_completion(program));
+    write(folder / "completion" / "gumcert", manual::bash_completion(program));
+    write(folder / "completion" / "_gumcert", manual::zsh_completion(program));
+    write(folder / "completion" / "gumcert.fish", manual::fish_completion(program));
 }
 
 }  // namespace

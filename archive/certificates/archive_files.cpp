@@ -6,6 +6,7 @@
 
 #include "archive/certificates/message_json.h"
 #include "archive/evidence.h"
+#include "archive/verification.h"
 #include "encoding/sha2.h"
 #include "evaluation/read_file.h"
 #include "json/members.h"
@@ -98,14 +99,6 @@ void add_line(std::vector<std::string>& lines, std::string line) {
     if (!line.empty()) {
         lines.push_back(std::move(line));
     }
-}
-
-json shown_findings_of(const std::vector<gum::Diagnostic>& findings) {
-    json list = json::array();
-    for (const gum::Diagnostic& one : findings) {
-        list.push_back(as_json(one));
-    }
-    return list;
 }
 
 json shown_chain(const std::vector<EvidenceVerdict::Certificate>& chain) {
@@ -239,7 +232,7 @@ VerifiedFile verified_evidence(const std::string& text, const std::string& file,
                  {"entries", evidence.entries.size()},
                  {"contents", evidence.contents.size()},
                  {"times_to_come", to_come},
-                 {"findings", shown_findings_of(said.findings)}};
+                 {"findings", as_json(said.findings)}};
     const std::string when = ", as the archive stood at " + head.at + " (" + std::to_string(head.size) + " entries)";
     std::vector<std::string> lines = {"certificate " + text::one_line(evidence.certificate) +
                                           (is_proved      ? ", "
@@ -307,7 +300,7 @@ VerifiedFile verified_head(const std::string& text, const std::string& file, con
                  {"newer_head", newest != nullptr ? json{{"size", newest->size}, {"at", newest->at}} : json()},
                  {"signed_by", hexadecimal_key(head.signature)},
                  {"trusted", heads.has_key() && said.sound()},
-                 {"findings", shown_findings_of(said.findings)}};
+                 {"findings", as_json(said.findings)}};
     said.text = text::one_line(file) + ": " + (said.sound() ? "sound" : "NOT SOUND") + "\n  " +
                 std::to_string(head.size) + " entries, " + head.at +
                 (head.extends ? "; extends a head of " + std::to_string(head.extends->size) + " entries"
@@ -318,6 +311,51 @@ VerifiedFile verified_head(const std::string& text, const std::string& file, con
     }
     for (const std::string& line : to_come) {
         said.text += "  " + line + "\n";
+    }
+    return said;
+}
+
+VerifiedFile verified_store(Store& store, const TrustedHeads& heads,
+                            const std::function<void(const std::string&)>& progress) {
+    Verification verification = verify_store(store, heads.all(), progress);
+    VerifiedFile said{.findings = std::move(verification.findings), .text = {}, .json = {}};
+    said.findings.insert(said.findings.end(), heads.findings().begin(), heads.findings().end());
+    std::vector<std::string> to_come;
+    json head;
+    if (verification.head) {
+        add_line(to_come, time_to_come("the last entry", verification.head->at, heads.latest()));
+        head = json::parse(to_json(*verification.head));
+    }
+    for (std::string& line : heads.times_to_come()) {
+        to_come.push_back(std::move(line));
+    }
+    said.json = {{"schema", k_schema_of_verification},
+                 {"sound", said.sound()},
+                 {"entries", verification.entries},
+                 {"contents", verification.contents},
+                 {"certificates", verification.certificates},
+                 {"heads", heads.all().size()},
+                 {"trusted", heads.has_key() && !heads.all().empty() && heads.findings().empty()},
+                 {"head", head},
+                 {"times_to_come", to_come},
+                 {"findings", as_json(said.findings)}};
+    said.text = text::one_line(store.name()) + ": " + (said.sound() ? "sound" : "NOT SOUND") + "; " +
+                std::to_string(verification.entries) + " entries, " + std::to_string(verification.contents) +
+                " contents, " + std::to_string(verification.certificates) + " certificates, " +
+                std::to_string(heads.all().size()) + " earlier heads\n";
+    if (verification.head) {
+        said.text += "  head " + encoding::hexadecimal(verification.head->root) + " of " +
+                     text::one_line(verification.head->at) + "\n";
+    }
+    if (heads.all().empty()) {
+        said.text +=
+            "  Without --head nobody can see whether the end of the log was cut off, or all of it rewritten.\n";
+    }
+    for (const std::string& line : to_come) {
+        said.text += "  " + line + "\n";
+    }
+    if (heads.has_key() && heads.all().empty()) {
+        said.text += "  --trust says nothing here: an archive is not signed, heads are, and none is given.\n";
     }
     return said;
 }

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "archive/head.h"
+#include "archive/store/store.h"
 #include "gum/quantity/diagnostic.h"
 
 namespace gumcert::archive {
@@ -62,7 +64,7 @@ struct DocumentInHand {
 /// GC-ARCHIVE-0057 for each one that its evidence does not name.
 [[nodiscard]] std::vector<gum::Diagnostic> findings_of(const std::vector<DocumentInHand>& documents);
 
-/// What there is to say of a file.
+/// What there is to say of a file, or of an archive.
 struct VerifiedFile {
     std::vector<gum::Diagnostic> findings;
     std::string text;     ///< for a reader, lines
@@ -81,5 +83,8 @@ struct VerifiedFile {
 /// ones extend it (GC-ARCHIVE-0051).
 /// \throws gum::InputError  GC-ARCHIVE-0049
 [[nodiscard]] VerifiedFile verified_head(const std::string& text, const std::string& file, const TrustedHeads& heads);
+/// An archive as a whole, by verify_store(), which heads from elsewhere must be heads of.
+[[nodiscard]] VerifiedFile verified_store(Store& store, const TrustedHeads& heads,
+                                          const std::function<void(const std::string&)>& progress = {});
 
 }  // namespace gumcert::archive

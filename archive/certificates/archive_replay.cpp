@@ -1,11 +1,16 @@
 #include "archive/certificates/archive_replay.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cstddef>
+#include <nlohmann/json.hpp>
 #include <utility>
 
+#include "archive/certificates/message_json.h"
 #include "evaluation/recompute_record.h"
 #include "reports/record/evaluation_record.h"
+#include "text/visible_text.h"
 
 namespace gumcert::archive {
 
@@ -75,6 +80,71 @@ Replay replay_record(const std::string& bytes, const std::string& name, unsigned
         replay.differences.push_back(not_replayed(name, first.where + ": " + first.what));
     }
     return replay;
+}
+
+std::vector<std::pair<std::string, std::string>> records_to_replay(Archive& archive,
+                                                                   const std::vector<std::string>& numbers) {
+    std::vector<std::pair<std::string, std::string>> records;
+    for (const std::string& number : numbers) {
+        records.emplace_back(number, archive.life(number).record);
+    }
+    if (numbers.empty()) {
+        for (const ListedCertificate& one : archive.certificates()) {
+            if (!one.record.empty()) {
+                records.emplace_back(one.number, one.record);
+            }
+        }
+    }
+    return records;
+}
+
+std::vector<gum::Diagnostic> first_differences(const std::vector<gum::Diagnostic>& all, const std::string& number) {
+    if (all.size() <= evaluation::k_most_disagreements + 1) {
+        return all;
+    }
+    std::vector<gum::Diagnostic> first(all.begin(), all.begin() + evaluation::k_most_disagreements);
+    const bool is_all = all.size() <= k_most_differences;
+    const std::size_t more = std::min(all.size(), k_most_differences) - first.size();
+    first.push_back({.code = "GC-ARCHIVE-0073",
+                     .where = number,
+                     .what = (is_all ? "" : "more than ") + std::to_string(more) + " more places",
+                     .rule = "the first " + std::to_string(first.size()) + " are shown here",
+                     .action = "--format json lists them"});
+    return first;
+}
+
+std::size_t same_again(const Replays& replays) {
+    return static_cast<std::size_t>(
+        std::count_if(replays.begin(), replays.end(), [](const auto& one) { return one.second.differences.empty(); }));
+}
+
+std::string replay_text(const Replays& replays, const std::string& program) {
+    std::string text;
+    for (const auto& [number, one] : replays) {
+        text += fmt::format("{:<24}  {}  made by gumcert {}\n", text::one_line(number),
+                            one.differences.empty() ? "same     "
+                            : one.evaluated         ? "DIFFERENT"
+                                                    : "NOT DONE ",
+                            text::one_line(one.made_by));
+    }
+    return text + fmt::format("{} of {} records give the same with gumcert {}\n", same_again(replays), replays.size(),
+                              program);
+}
+
+nlohmann::json replay_json(const Replays& replays, const std::string& program) {
+    nlohmann::json list = nlohmann::json::array();
+    for (const auto& [number, one] : replays) {
+        list.push_back({{"number", number},
+                        {"made_by", one.made_by},
+                        {"evaluated", one.evaluated},
+                        {"same", one.differences.empty()},
+                        {"differences", as_json(one.differences)}});
+    }
+    return {{"schema", "gumcert/archive-replay/1"},
+            {"program", program},
+            {"records", replays.size()},
+            {"same", same_again(replays)},
+            {"certificates", list}};
 }
 
 }  // namespace gumcert::archive

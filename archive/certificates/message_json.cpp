@@ -12,4 +12,12 @@ nlohmann::json as_json(const gum::Diagnostic& diagnostic) {
             {"action", diagnostic.action}};
 }
 
+nlohmann::json as_json(const std::vector<gum::Diagnostic>& diagnostics) {
+    nlohmann::json list = nlohmann::json::array();
+    for (const gum::Diagnostic& one : diagnostics) {
+        list.push_back(as_json(one));
+    }
+    return list;
+}
+
 }  // namespace gumcert::archive

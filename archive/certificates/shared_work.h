@@ -58,6 +58,6 @@ private:
 void take_results(std::vector<AffectedCertificate>& affected, WorkTable& table, const WorkToShare& shared);
 /// By number of the certificate.
 /// \throws gum::StorageError  GC-ARCHIVE-0063 where somebody else has removed the work
-[[nodiscard]] std::vector<std::pair<std::string, Replay>> replays_in(WorkTable& table, const WorkToShare& shared);
+[[nodiscard]] Replays replays_in(WorkTable& table, const WorkToShare& shared);
 
 }  // namespace gumcert::archive

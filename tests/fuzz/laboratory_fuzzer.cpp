@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "app/laboratory_overview.h"
+#include "evaluation/laboratory_overview.h"
 #include "gum/quantity/diagnostic.h"
 #include "tests/fuzz/bundle_folder.h"
 
@@ -14,12 +14,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     static const fuzz::BundleFolder folder("laboratory");
     folder.fill({reinterpret_cast<const char*>(data), size});
     try {
-        const app::LaboratoryOverview overview = app::laboratory_overview(folder.path(), "2026-11-24");
-        (void)app::overview_text(overview, "laboratory", "");
-        (void)app::overview_csv(overview);
-        fuzz::demand(!nlohmann::json::parse(app::overview_json(overview), nullptr, false).is_discarded(),
+        const evaluation::LaboratoryOverview overview = evaluation::laboratory_overview(folder.path(), "2026-11-24");
+        (void)evaluation::overview_text(overview, "laboratory", "");
+        (void)evaluation::overview_csv(overview);
+        fuzz::demand(!nlohmann::json::parse(evaluation::overview_json(overview), nullptr, false).is_discarded(),
                      "an overview that is no JSON");
-        for (const app::OverviewRow& row : overview.standards) {
+        for (const evaluation::OverviewRow& row : overview.standards) {
             fuzz::demand(!row.id.empty() && !row.state.empty(), "a standard without a state");
         }
     } catch (const gum::DiagnosedError& error) {

@@ -148,7 +148,7 @@ def literal_calls(root: pathlib.Path) -> set[tuple[str, str]]:
     """Keys that sources ask for by two literals: words("group", "name"), filled("group", "name", …), fill("name", …)."""
     asked = set()
     for path in [*root.glob("reports/**/*.cpp"), *root.glob("reports/**/*.h"), *root.glob("evaluation/*.cpp"),
-                 *root.glob("issuing/*.cpp"), *root.glob("self_test/*.cpp"), *root.glob("app/*.cpp")]:
+                 *root.glob("issuing/*.cpp"), *root.glob("self_test/*.cpp")]:
         source = without_comments(path.read_text(encoding="utf-8"))
         for group, name in re.findall(r'(?:words|words\(\)|wording_|filled)\(\s*"(\w+)",\s*"([^"]+)"', source):
             asked.add((group, name))

@@ -38,7 +38,7 @@ LINK = re.compile(r"\]\((?!https?:|mailto:|#)([^)#\s]+)")
 CONFLICT = re.compile(r"^(?:<{7}|>{7}) ")
 DOMAIN = {"text", "encoding", "system", "json", "gum", "engine", "certificate", "laboratory", "archive", "workbook",
           "audit"}  # layers, with those below them
-AROUND_DOMAIN = {"jobs", "reports", "imports", "signing", "outputs", "evaluation", "issuing", "self_test", "app"}
+AROUND_DOMAIN = {"jobs", "reports", "imports", "signing", "outputs", "evaluation", "issuing", "self_test", "manual", "app"}
 UNTESTED_AROUND_DOMAIN = "tests/lint/untested_headers.txt"
 LAYERS = "cmake/gumcert_layers.cmake"
 MOST_UNITS = 25

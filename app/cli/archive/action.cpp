@@ -4,7 +4,6 @@
 
 #include "app/cli/terminal/clock.h"
 #include "app/cli/terminal/terminal.h"
-#include "archive/certificates/message_json.h"
 #include "archive/store/open_store.h"
 #include "encoding/sha2.h"
 
@@ -51,14 +50,6 @@ ExitCode told(const archive::Written& written, const ArchiveOptions& options, co
                         written.repeated ? " (asked for before, with the same key)" : "");
     }
     return done;
-}
-
-json shown_findings(const std::vector<gum::Diagnostic>& findings) {
-    json list = json::array();
-    for (const gum::Diagnostic& one : findings) {
-        list.push_back(archive::as_json(one));
-    }
-    return list;
 }
 
 void print_findings(const std::vector<gum::Diagnostic>& findings, const CommonOptions& common) {

@@ -44,7 +44,6 @@ archive::Written carried_out(const Work& work) {
 /// The outcome of an action that writes an entry.
 ExitCode told(const archive::Written& written, const ArchiveOptions& options, const CommonOptions& common);
 
-[[nodiscard]] nlohmann::json shown_findings(const std::vector<gum::Diagnostic>& findings);
 void print_findings(const std::vector<gum::Diagnostic>& findings, const CommonOptions& common);
 
 }  // namespace gumcert::cli

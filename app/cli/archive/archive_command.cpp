@@ -13,7 +13,7 @@
 #include "app/cli/terminal/clock.h"
 #include "app/cli/terminal/output_places.h"
 #include "app/cli/terminal/terminal.h"
-#include "app/laboratory_overview.h"
+#include "evaluation/laboratory_overview.h"
 #include "text/utf8.h"
 #include "text/visible_text.h"
 
@@ -106,8 +106,8 @@ void require_options(const Action& action, const ArchiveOptions& o) {
                      "an action has one archive; evidence is verified without any",
                      o.store.empty() ? "name the file of the archive" : "leave one of them out");
     }
-    if (!o.today.empty() && !app::is_day_somewhere(o.today, time_now())) {
-        refuse_usage(command, "--today " + o.today + (app::is_day(o.today) ? "" : " is no day"),
+    if (!o.today.empty() && !evaluation::is_day_somewhere(o.today, time_now())) {
+        refuse_usage(command, "--today " + o.today + (evaluation::is_day(o.today) ? "" : " is no day"),
                      "it is the day of the calendar, and the clock of this machine says " + time_now(),
                      "look at a calendar: set the clock right, or correct the day");
     }

@@ -19,15 +19,14 @@
 #include "app/cli/terminal/interruption.h"
 #include "app/cli/terminal/share_folder.h"
 #include "app/cli/terminal/terminal.h"
-#include "app/laboratory_overview.h"
 #include "archive/archive.h"
 #include "archive/certificates/affected_certificates.h"
 #include "archive/certificates/archive_replay.h"
 #include "archive/certificates/shared_work.h"
 #include "archive/store/open_store.h"
 #include "archive/store/work_table.h"
+#include "evaluation/laboratory_overview.h"
 #include "evaluation/read_file.h"
-#include "evaluation/recompute_record.h"
 #include "outputs/output_files.h"
 #include "system/whole_folders.h"
 #include "text/visible_text.h"
@@ -37,7 +36,6 @@ namespace gumcert::cli {
 namespace {
 
 namespace fs = std::filesystem;
-using nlohmann::json;
 
 /// The table of work that the machines of an archive share.
 std::unique_ptr<archive::WorkTable> opened_work(const ArchiveOptions& options) {
@@ -53,23 +51,6 @@ std::unique_ptr<archive::WorkTable> opened_work(const ArchiveOptions& options) {
 void wait_for_others() {
     constexpr auto k_pause = std::chrono::milliseconds(200);
     std::this_thread::sleep_for(k_pause);
-}
-
-/// Numbers of certificates and SHA-256 of their records: those that are named, or all.
-std::vector<std::pair<std::string, std::string>> records_to_replay(archive::Archive& archive,
-                                                                   const ArchiveOptions& options) {
-    std::vector<std::pair<std::string, std::string>> records;
-    for (const std::string& number : options.named) {
-        records.emplace_back(number, archive.life(number).record);
-    }
-    if (options.named.empty()) {
-        for (const archive::ListedCertificate& one : archive.certificates()) {
-            if (!one.record.empty()) {
-                records.emplace_back(one.number, one.record);
-            }
-        }
-    }
-    return records;
 }
 
 /// Drafts of amendments on the disk, each in a folder of its own. One that a command that was ended has left there is whole,
@@ -141,7 +122,7 @@ void require_query(const ArchiveOptions& options) {
         }
     }
     for (const std::string* const day : {&options.since, &options.until}) {
-        if (!day->empty() && !app::is_day(*day)) {
+        if (!day->empty() && !evaluation::is_day(*day)) {
             refuse_usage("archive affected", *day + " is no day", "a day is written as 2026-11-21", "correct it");
         }
     }
@@ -156,50 +137,28 @@ void require_query(const ArchiveOptions& options) {
     }
 }
 
-/// What fits on a terminal; JSON has all of them.
-std::vector<gum::Diagnostic> first_differences(const std::vector<gum::Diagnostic>& all, const std::string& number) {
-    if (all.size() <= evaluation::k_most_disagreements + 1) {
-        return all;
-    }
-    std::vector<gum::Diagnostic> first(all.begin(), all.begin() + evaluation::k_most_disagreements);
-    const bool is_all = all.size() <= archive::k_most_differences;
-    const std::size_t more = std::min(all.size(), archive::k_most_differences) - first.size();
-    first.push_back({.code = "GC-ARCHIVE-0073",
-                     .where = number,
-                     .what = (is_all ? "" : "more than ") + std::to_string(more) + " more places",
-                     .rule = "the first " + std::to_string(first.size()) + " are shown here",
-                     .action = "--format json lists them"});
-    return first;
-}
-
 }  // namespace
 
 ExitCode replay(const ArchiveOptions& options, const CommonOptions& common) {
     const std::unique_ptr<archive::WorkTable> table = options.shared ? opened_work(options) : nullptr;
     const auto store = opened(options, archive::Access::read_only);
     archive::Archive archive(*store);
-    const std::vector<std::pair<std::string, std::string>> records = records_to_replay(archive, options);
+    const std::vector<std::pair<std::string, std::string>> records = archive::records_to_replay(archive, options.named);
     const fs::path templates = templates_folder(options.share);
     const auto threads = static_cast<unsigned>(common.threads);
     ProgressLine progress(!common.quiet);
-    json list = json::array();
-    std::size_t same = 0;
-    const auto take = [&](const std::string& number, const archive::Replay& one) {
+    archive::Replays replays;
+    const auto take = [&](const std::string& number, archive::Replay one) {
         progress.clear();
-        print_findings(first_differences(one.differences, number), common);
-        same += one.differences.empty() ? std::size_t{1} : 0;
-        list.push_back({{"number", number},
-                        {"made_by", one.made_by},
-                        {"evaluated", one.evaluated},
-                        {"same", one.differences.empty()},
-                        {"differences", shown_findings(one.differences)}});
+        print_findings(archive::first_differences(one.differences, number), common);
+        replays.emplace_back(number, std::move(one));
     };
     if (table) {
         const archive::WorkToShare shared = archive::work_of_replay(records, program_name());
         archive::ArchiveWorker(archive, *table, threads, templates)
             .finish(shared, wait_for_others, [&](const std::string& text) { progress(text); });
-        for (const auto& [number, one] : archive::replays_in(*table, shared)) {
-            take(number, one);
+        for (auto& [number, one] : archive::replays_in(*table, shared)) {
+            take(number, std::move(one));
         }
         table->remove(shared.work.id);
     } else {
@@ -210,22 +169,11 @@ ExitCode replay(const ArchiveOptions& options, const CommonOptions& common) {
         }
     }
     if (as_json(options)) {
-        print_json({{"schema", "gumcert/archive-replay/1"},
-                    {"program", program_name()},
-                    {"records", records.size()},
-                    {"same", same},
-                    {"certificates", list}});
+        print_json(archive::replay_json(replays, program_name()));
     } else if (!common.quiet) {
-        for (const json& one : list) {
-            print_to_stdout("{:<24}  {}  made by gumcert {}\n", text::one_line(one["number"].get<std::string>()),
-                            one["same"].get<bool>()        ? "same     "
-                            : one["evaluated"].get<bool>() ? "DIFFERENT"
-                                                           : "NOT DONE ",
-                            text::one_line(one["made_by"].get<std::string>()));
-        }
-        print_to_stdout("{} of {} records give the same with gumcert {}\n", same, records.size(), program_name());
+        print_to_stdout("{}", archive::replay_text(replays, program_name()));
     }
-    return same == records.size() ? done : negative_answer;
+    return archive::same_again(replays) == replays.size() ? done : negative_answer;
 }
 
 ExitCode find_affected(const ArchiveOptions& options, const CommonOptions& common) {

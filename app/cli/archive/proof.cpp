@@ -1,7 +1,5 @@
 #include "app/cli/archive/proof.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <filesystem>
 #include <memory>
@@ -19,7 +17,6 @@
 #include "archive/archive.h"
 #include "archive/certificates/archive_files.h"
 #include "archive/evidence.h"
-#include "archive/verification.h"
 #include "encoding/sha2.h"
 #include "evaluation/read_file.h"
 #include "outputs/output_files.h"
@@ -31,7 +28,6 @@ namespace gumcert::cli {
 namespace {
 
 namespace fs = std::filesystem;
-using nlohmann::json;
 
 /// The files that an action with an output reads: no output takes the place of one.
 std::vector<fs::path> inputs_of(const ArchiveOptions& options) {
@@ -111,6 +107,17 @@ void require_own_evidence(const fs::path& file, const std::string& number) {
     }
 }
 
+/// What was found of a file or an archive.
+ExitCode told(const archive::VerifiedFile& said, const ArchiveOptions& options, const CommonOptions& common) {
+    print_findings(said.findings, common);
+    if (as_json(options)) {
+        print_json(said.json);
+    } else if (!common.quiet) {
+        write_to_stdout(said.text);
+    }
+    return said.sound() ? done : negative_answer;
+}
+
 /// A file that is verified, and the documents in hand that should be those of it.
 struct GivenFile {
     std::string file;
@@ -153,13 +160,7 @@ ExitCode verify_files(const ArchiveOptions& options, const CommonOptions& common
                                 one.kind == archive::ArchiveFile::head
                                     ? archive::verified_head(text, file, heads)
                                     : archive::verified_evidence(text, file, heads, documents);
-                            print_findings(said.findings, common);
-                            if (as_json(options)) {
-                                print_json(said.json);
-                            } else if (!common.quiet) {
-                                write_to_stdout(said.text);
-                            }
-                            return said.sound() ? done : negative_answer;
+                            return told(said, options, common);
                         }));
         const std::vector<gum::Diagnostic> of_others = archive::findings_of(documents);
         print_findings(of_others, common);
@@ -227,55 +228,10 @@ ExitCode verify_archive(const ArchiveOptions& options, const CommonOptions& comm
     const archive::TrustedHeads heads(options.heads, options.trust, latest_time());
     const auto store = opened(options, archive::Access::read_only);
     ProgressLine progress(!common.quiet);
-    archive::Verification verification =
-        archive::verify_store(*store, heads.all(), [&](const std::string& text) { progress(text); });
+    const archive::VerifiedFile said =
+        archive::verified_store(*store, heads, [&](const std::string& text) { progress(text); });
     progress.clear();
-    verification.findings.insert(verification.findings.end(), heads.findings().begin(), heads.findings().end());
-    print_findings(verification.findings, common);
-    const bool trust_is_idle = heads.has_key() && heads.all().empty();
-    std::vector<std::string> to_come = heads.times_to_come();
-    if (verification.head) {
-        if (std::string line = archive::time_to_come("the last entry", verification.head->at, heads.latest());
-            !line.empty()) {
-            to_come.insert(to_come.begin(), std::move(line));
-        }
-    }
-    if (as_json(options)) {
-        json head;
-        if (verification.head) {
-            head = json::parse(archive::to_json(*verification.head));
-        }
-        print_json({{"schema", "gumcert/archive-verification/1"},
-                    {"sound", verification.sound()},
-                    {"entries", verification.entries},
-                    {"contents", verification.contents},
-                    {"certificates", verification.certificates},
-                    {"heads", heads.all().size()},
-                    {"trusted", heads.has_key() && !heads.all().empty() && heads.findings().empty()},
-                    {"head", head},
-                    {"times_to_come", to_come},
-                    {"findings", shown_findings(verification.findings)}});
-    } else if (!common.quiet) {
-        std::string said =
-            fmt::format("{}: {}; {} entries, {} contents, {} certificates, {} earlier heads\n",
-                        text::one_line(store->name()), verification.sound() ? "sound" : "NOT SOUND",
-                        verification.entries, verification.contents, verification.certificates, heads.all().size());
-        if (verification.head) {
-            said += fmt::format("  head {} of {}\n", encoding::hexadecimal(verification.head->root),
-                                text::one_line(verification.head->at));
-        }
-        if (heads.all().empty()) {
-            said += "  Without --head nobody can see whether the end of the log was cut off, or all of it rewritten.\n";
-        }
-        for (const std::string& line : to_come) {
-            said += "  " + line + "\n";
-        }
-        if (trust_is_idle) {
-            said += "  --trust says nothing here: an archive is not signed, heads are, and none is given.\n";
-        }
-        write_to_stdout(said);
-    }
-    return verification.sound() ? done : negative_answer;
+    return told(said, options, common);
 }
 
 }  // namespace gumcert::cli

@@ -5,7 +5,6 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <chrono>
@@ -22,7 +21,7 @@
 #include <vector>
 
 #include "app/cli/terminal/terminal.h"
-#include "app/limits.h"
+#include "evaluation/limits.h"
 #include "system/ceilings.h"
 #include "system/cleanup.h"
 
@@ -217,18 +216,9 @@ void clean_up_at_signals(bool json_messages) {
 }
 
 CommonOptions with_walls(CommonOptions common, const std::vector<std::filesystem::path>& files) {
-    std::uint64_t steps = 0;
-    std::uint64_t most = 1;
-    for (const std::filesystem::path& file : files) {
-        std::error_code error;
-        const std::uint64_t size = std::filesystem::file_size(file, error);
-        const std::uint64_t own = error ? 1 : 1 + size / app::k_wall_step;
-        steps += own;
-        most = std::max(most, own);
-    }
-    common.memory_limit =
-        common.memory_limit.value_or(most * app::k_wall_memory + files.size() * app::k_wall_memory_of_file);
-    common.time_limit = common.time_limit.value_or(std::max<std::uint64_t>(steps, 1) * app::k_wall_time);
+    const evaluation::Walls walls = evaluation::walls_of(files);
+    common.memory_limit = common.memory_limit.value_or(walls.memory);
+    common.time_limit = common.time_limit.value_or(walls.time);
     return common;
 }
 

@@ -14,8 +14,7 @@ namespace gumcert::cli {
 /// \param json_messages  the form of what is said
 void clean_up_at_signals(bool json_messages);
 
-/// Where --memory-limit and --time-limit are not given: what reading files of others may take. For every 10 MB begun of a
-/// file 1 GiB, the largest of them counting, and 256 KiB for each of them; and 30 s, all of them together.
+/// Where --memory-limit and --time-limit are not given: what reading files of others may take, evaluation::walls_of().
 [[nodiscard]] CommonOptions with_walls(CommonOptions common, const std::vector<std::filesystem::path>& files);
 
 /// Keeps the command within its ceilings: one that is reached ends it by exit code 5 with a message that names it

@@ -1,10 +1,10 @@
 #include "app/cli/terminal/output_places.h"
 
-#include <exception>
 #include <system_error>
 
 #include "app/cli/terminal/interruption.h"
 #include "gum/quantity/diagnostic.h"
+#include "outputs/kept_files.h"
 #include "system/temporary.h"
 
 namespace gumcert::cli {
@@ -36,30 +36,12 @@ void write_outputs(const std::vector<outputs::OutputFile>& files, const std::vec
     }
 }
 
-std::filesystem::path kept_place(const std::filesystem::path& output) {
-    return output.parent_path() / "record-kept" / output.filename();
-}
-
-void make_or_keep(const std::function<void()>& make, const std::function<void()>& keep) {
-    try {
-        make();
-    } catch (const gum::InputError&) {
-        throw;  // exit code 3: nothing is written
-    } catch (const gum::NoResultError& error) {
-        keep();
-        throw gum::StorageError(error.diagnostics());
-    } catch (...) {
-        keep();
-        throw;
-    }
-}
-
 void keep_files(std::vector<outputs::OutputFile> files, const std::vector<std::filesystem::path>& inputs,
                 const outputs::OutputsAtStart& at_start, const std::string& what, const std::string& action,
                 const CommonOptions& common) {
     (void)explained(common, [&] {
         for (outputs::OutputFile& file : files) {
-            file.path = kept_place(file.path);
+            file.path = outputs::kept_place(file.path);
         }
         write_outputs(files, inputs, at_start);
         print_message({.code = "GC-STORE-0022",
@@ -75,7 +57,7 @@ void keep_files(std::vector<outputs::OutputFile> files, const std::vector<std::f
 }
 
 void report_kept(const std::filesystem::path& output, const CommonOptions& common) {
-    const std::filesystem::path kept = kept_place(output);
+    const std::filesystem::path kept = outputs::kept_place(output);
     std::error_code error;
     if (std::filesystem::exists(kept, error)) {
         print_message({.code = "GC-STORE-0023",

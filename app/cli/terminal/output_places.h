@@ -1,7 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -27,16 +26,7 @@ void refuse_stdout(const std::string& option, const std::string& place);
 void write_outputs(const std::vector<outputs::OutputFile>& files, const std::vector<std::filesystem::path>& inputs,
                    const outputs::OutputsAtStart& at_start);
 
-/// Where files of an evaluation are kept of which a document cannot be made: in a folder beside the outputs, so that they
-/// stand in no set with documents of an earlier evaluation (docs/adr/0057-records-are-kept.md).
-[[nodiscard]] std::filesystem::path kept_place(const std::filesystem::path& output);
-
-/// Makes the documents of what was evaluated. Where one cannot be made, `keep` writes what there is, and the failure
-/// becomes that of a file, exit code 5. An input that is refused only now keeps nothing.
-/// \throws what `make` throws; gum::StorageError in place of gum::NoResultError: there is a result
-void make_or_keep(const std::function<void()>& make, const std::function<void()>& keep);
-
-/// Writes files into the places that kept_place() says, and says so: GC-STORE-0022. A failure is told, and not thrown.
+/// Writes files into the places that outputs::kept_place() says, and says so: GC-STORE-0022. A failure is told, and not thrown.
 /// \param what    "is the record of this evaluation"
 /// \param action  in which other way a document can be made
 void keep_files(std::vector<outputs::OutputFile> files, const std::vector<std::filesystem::path>& inputs,

@@ -41,12 +41,16 @@ fs::path executable() {
     return fs::read_symlink("/proc/self/exe", error);
 }
 
-std::string executable_digest() {
+std::string digest_of_program_file(const fs::path& file) {
     try {
-        return encoding::sha256(evaluation::read_file(executable()));
+        return encoding::sha256(evaluation::read_file(file));
     } catch (const gum::DiagnosedError&) {
         return "unknown";
     }
+}
+
+std::string executable_digest() {
+    return digest_of_program_file(executable());
 }
 
 fs::path share_folder(const std::string& given) {

@@ -11,7 +11,9 @@ namespace gumcert::cli {
 /// This program's own file.
 [[nodiscard]] std::filesystem::path executable();
 
-/// SHA-256 of it; "unknown" on a system without /proc.
+/// SHA-256 of a file of the program; "unknown" on a system without /proc, or where it was replaced since the program began.
+[[nodiscard]] std::string digest_of_program_file(const std::filesystem::path& file);
+/// Of this program's own file.
 [[nodiscard]] std::string executable_digest();
 
 /// Folder with templates/: share/gumcert of the installation, or the tree that the program was built in.

@@ -66,6 +66,17 @@ TEST(AuditOfAnEvaluation, CriticalFindingsCloseTheGate) {
     EXPECT_TRUE(is_refuted_by_audit(specimen));
 }
 
+TEST(AuditOfAnEvaluation, CriticalFindingsAreToldWhereNoCertificateHasThem) {
+    EXPECT_TRUE(critical_messages(evaluated(job_with(0.3, nullptr))).empty());
+    const std::vector<gum::Diagnostic> told = critical_messages(evaluated(job_with(0.1, nullptr)));
+    ASSERT_FALSE(told.empty());
+    EXPECT_EQ(told.front().code, "GC-AUDIT-0020");
+    EXPECT_TRUE(told.front().where.starts_with("audit U13, ")) << told.front().where;
+    EXPECT_EQ(told.front().severity, gum::Severity::warning);
+    EXPECT_TRUE(critical_messages(evaluated(job_with(0.1, json::array()))).empty()) << "its findings are told";
+    EXPECT_TRUE(critical_messages(Evaluation{}).empty());
+}
+
 TEST(AuditOfAnEvaluation, AWaiverWithPersonAndReasonOpensIt) {
     json waiver = {{"finding", "U13"},
                    {"by", "Head of laboratory"},

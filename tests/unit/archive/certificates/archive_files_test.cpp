@@ -2,6 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+
+#include "archive/archive.h"
+#include "archive/store/open_store.h"
+#include "tests/support/archive_folder.h"
+
 namespace gumcert::archive {
 namespace {
 
@@ -47,6 +53,35 @@ TEST(ArchiveFiles, HeadsOfNobodyTrustNothing) {
     EXPECT_TRUE(none.all().empty());
     EXPECT_TRUE(none.findings().empty());
     EXPECT_TRUE(none.times_to_come().empty());
+}
+
+TEST(ArchiveFiles, AnArchiveIsHeldAgainstTheHeadsThatSomebodyHas) {
+    const test::StoreFolder folder;
+    const Request by{.actor = "K. Keeper", .at = "2026-01-01T00:00:00Z", .request_key = "", .why = ""};
+    const auto store =
+        create_store(folder.file().string(), first_entry({.four_eyes = false, .numbering = ""}, "gumcert", "1", by));
+    const VerifiedFile said = verified_store(*store, TrustedHeads({}, "", "2026-01-01T00:00:00Z"));
+    EXPECT_TRUE(said.sound());
+    EXPECT_NE(said.text.find(": sound; 1 entries, 0 contents, 0 certificates, 0 earlier heads\n  head "),
+              std::string::npos)
+        << said.text;
+    EXPECT_NE(said.text.find("Without --head nobody can see"), std::string::npos);
+    EXPECT_EQ(said.json["schema"], "gumcert/archive-verification/1");
+    EXPECT_EQ(said.json["sound"], true);
+    EXPECT_EQ(said.json["trusted"], false);
+    EXPECT_EQ(said.json["times_to_come"].size(), 0U);
+
+    Head head = Archive(*store).head();
+    head.root = std::string(32, 'x');
+    std::ofstream(folder.file("other.json")) << to_json(head);
+    const VerifiedFile other =
+        verified_store(*store, TrustedHeads({folder.file("other.json").string()}, "", "2025-01-01T00:00:00Z"));
+    EXPECT_FALSE(other.sound());
+    ASSERT_FALSE(other.findings.empty());
+    EXPECT_EQ(other.findings.front().code, "GC-ARCHIVE-0045");
+    EXPECT_NE(other.text.find(": NOT SOUND; "), std::string::npos) << other.text;
+    EXPECT_EQ(other.json["heads"], 1);
+    EXPECT_EQ(other.json["times_to_come"].size(), 2U) << "neither the last entry nor the head, by this clock";
 }
 
 }  // namespace

@@ -7,8 +7,11 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
+#include "archive/store/open_store.h"
 #include "evaluation/evaluate_job.h"
 #include "reports/record/evaluation_record.h"
+#include "tests/support/archive_folder.h"
+#include "tests/support/sample_archive.h"
 
 namespace gumcert::archive {
 namespace {
@@ -73,6 +76,66 @@ TEST(ArchiveReplay, TellsOnlySoManyPlaces) {
         record["audit"]["not_checked"].push_back(record["audit"]["not_checked"].front());
     }
     EXPECT_LE(replay_of(record).differences.size(), k_most_differences + 1);
+}
+
+Replay replay_with(std::size_t differences, bool evaluated = true) {
+    Replay replay{.made_by = "0.0.9 (commit a)", .evaluated = evaluated, .differences = {}};
+    for (std::size_t i = 0; i < differences; ++i) {
+        replay.differences.push_back(
+            {.code = "GC-ARCHIVE-0073", .where = std::to_string(i), .what = "\"10\"", .rule = "", .action = ""});
+    }
+    return replay;
+}
+
+TEST(ArchiveReplay, HasALineForEachRecordAndOneForAll) {
+    const Replays replays{{"EX-1", replay_with(0)}, {"EX-2", replay_with(1)}, {"EX-3", replay_with(1, false)}};
+    EXPECT_EQ(same_again(replays), 1U);
+    EXPECT_EQ(replay_text(replays, "0.1.0 (commit b)"),
+              "EX-1                      same       made by gumcert 0.0.9 (commit a)\n"
+              "EX-2                      DIFFERENT  made by gumcert 0.0.9 (commit a)\n"
+              "EX-3                      NOT DONE   made by gumcert 0.0.9 (commit a)\n"
+              "1 of 3 records give the same with gumcert 0.1.0 (commit b)\n");
+    const json said = replay_json(replays, "0.1.0 (commit b)");
+    EXPECT_EQ(said["schema"], "gumcert/archive-replay/1");
+    EXPECT_EQ(said["records"], 3);
+    EXPECT_EQ(said["same"], 1);
+    EXPECT_EQ(said["certificates"][0]["differences"], json::array());
+    EXPECT_EQ(said["certificates"][1]["differences"][0]["what"], "\"10\"");
+    EXPECT_EQ(said["certificates"][2]["evaluated"], false);
+}
+
+TEST(ArchiveReplay, ShowsTheFirstDifferencesAndHowManyMoreThereAre) {
+    EXPECT_EQ(first_differences(replay_with(21).differences, "EX-1").size(), 21U)
+        << "one more takes the line of its own";
+    const std::vector<gum::Diagnostic> first = first_differences(replay_with(25).differences, "EX-1");
+    ASSERT_EQ(first.size(), 21U);
+    EXPECT_EQ(first.back().what, "5 more places");
+    EXPECT_EQ(first.back().where, "EX-1");
+    EXPECT_EQ(first_differences(replay_with(k_most_differences + 1).differences, "EX-1").back().what,
+              "more than 980 more places");
+}
+
+TEST(ArchiveReplay, IsOfTheRecordsThatAreNamedOrOfAll) {
+    const test::StoreFolder folder;
+    test::Clock clock;
+    const auto by = [&](const std::string& who) {
+        return Request{.actor = who, .at = clock.next(), .request_key = "", .why = ""};
+    };
+    const auto store =
+        create_store(folder.file().string(),
+                     first_entry({.four_eyes = false, .numbering = "EX-YYYY-####"}, "gumcert", "1", by("K.")));
+    Archive archive(*store);
+    for (int i = 0; i < 2; ++i) {
+        const std::string number = archive.take_number(by("A.")).entry.certificate;
+        (void)archive.draft(test::sample_draft(number), by("A."));
+    }
+    (void)archive.take_number(by("A."));  // without a record
+    const auto all = records_to_replay(archive, {});
+    ASSERT_EQ(all.size(), 2U);
+    EXPECT_EQ(all[0].first, "EX-2026-0001");
+    EXPECT_EQ(all[0].second.size(), 64U);
+    EXPECT_EQ(records_to_replay(archive, {"EX-2026-0002"}), (std::vector{all[1]}));
+    EXPECT_EQ(test::code_of([&] { (void)records_to_replay(archive, {"EX-2026-0009"}); }), "GC-ARCHIVE-0026");
 }
 
 }  // namespace

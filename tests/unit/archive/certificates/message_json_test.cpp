@@ -12,5 +12,10 @@ TEST(MessageJson, HasFiveParts) {
     EXPECT_EQ(as_json(message).dump(), R"({"action":"d","code":"GC-X-0001","rule":"c","what":"b","where":"a"})");
 }
 
+TEST(MessageJson, OfNoneIsAnEmptyList) {
+    EXPECT_EQ(as_json(std::vector<gum::Diagnostic>{}).dump(), "[]");
+    EXPECT_EQ(as_json(std::vector<gum::Diagnostic>(2)).size(), 2U);
+}
+
 }  // namespace
 }  // namespace gumcert::archive
