@@ -15,6 +15,7 @@
 #include "reports/record/make/record_parts.h"
 #include "reports/record/record_kinds.h"
 #include "reports/view/comparison_sections.h"
+#include "text/degrees_of_freedom.h"
 #include "text/lists.h"
 
 namespace gumcert::cli {
@@ -153,8 +154,9 @@ void print_item(const reports::Comparison& comparison, const reports::Comparison
                               (item.U_rests_on == "scatter" && !item.nu.text.empty() ? ", nu = " + item.nu.text : "") +
                               ", p = " + coverage + ")");
     if (item.consistency) {
-        print_to_stdout("  consistency: chi-square {} on {} of freedom, p = {}{}\n", item.consistency->chi_square.text,
-                        text::count_of(item.consistency->degrees_of_freedom, "degree"), item.consistency->p_value.text,
+        print_to_stdout("  consistency: chi-square {} on {}, p = {}{}\n", item.consistency->chi_square.text,
+                        text::degrees_of_freedom(std::to_string(item.consistency->degrees_of_freedom)),
+                        item.consistency->p_value.text,
                         item.consistency->consistent  ? ""
                         : item.consistency->by_chance ? "   not consistent, as one of several items is by chance"
                                                       : "   NOT consistent");
@@ -204,8 +206,8 @@ void print_laboratories(const reports::Comparison& comparison, const std::string
     for (const reports::ComparisonPoint& point : comparison.points) {
         inconclusive += point.signal == "inconclusive" ? 1U : 0U;
     }
-    print_to_stdout("\n{} results: {} with an action signal, {} with a warning signal\n", comparison.points.size(),
-                    actions, warnings);
+    print_to_stdout("\n{}: {} with an action signal, {} with a warning signal\n",
+                    text::count_of(static_cast<std::int64_t>(comparison.points.size()), "result"), actions, warnings);
     if (inconclusive > 0) {
         print_to_stdout(
             "{} cannot be judged: the assigned value is too uncertain for them, of unknown uncertainty, or one of "
@@ -293,9 +295,10 @@ void print_rotary_table(const reports::EvaluationRecord& record) {
         const reports::Printed& printed = range.stated.printed;
         print_to_stdout("  {}  range {:>7} ± {} {}\n", range.name, printed.value, printed.U, printed.unit);
     }
-    print_to_stdout("\nAdjustment: {} observations, {} parameters, chi-square {} on {} degrees of freedom, p = {}\n",
+    print_to_stdout("\nAdjustment: {} observations, {} parameters, chi-square {} on {}, p = {}\n",
                     rotary.adjustment.observations, rotary.adjustment.parameters, rotary.adjustment.chi_square.text,
-                    rotary.adjustment.degrees_of_freedom, rotary.adjustment.p_value.text);
+                    text::degrees_of_freedom(std::to_string(rotary.adjustment.degrees_of_freedom)),
+                    rotary.adjustment.p_value.text);
     std::size_t removed = 0;
     for (const reports::FlaggedDistance& distance : rotary.flagged) {
         removed += distance.removed ? 1 : 0;

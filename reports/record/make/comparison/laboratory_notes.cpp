@@ -9,6 +9,7 @@
 #include "gum/rounding.h"
 #include "reports/record/make/comparison/comparison_print.h"
 #include "reports/record/make/record_parts.h"
+#include "text/degrees_of_freedom.h"
 #include "text/lists.h"
 #include "text/numbers.h"
 
@@ -84,7 +85,7 @@ bool inconsistent(const gum::ItemResult& item) {
 std::string test_text(const ComparisonItemEvaluation& item) {
     const reports::ConsistencySummary& test = *item.consistency;
     return "the results are not consistent with their uncertainties: chi-square " + test.chi_square.text + " on " +
-           text::count_of(test.degrees_of_freedom, "degree") + " of freedom, p = " + test.p_value.text +
+           text::degrees_of_freedom(std::to_string(test.degrees_of_freedom)) + ", p = " + test.p_value.text +
            ", below alpha = " + text::shortest(test.alpha);
 }
 
@@ -325,11 +326,11 @@ bool is_robust(const gum::ItemResult& item) {
 /// What the test of all results said before some of them were left out.
 std::string subset_remark(const gum::ItemResult& item, const ComparisonItemEvaluation& recorded) {
     const gum::ConsistencyTest& all = *item.consistency_of_all;
-    std::string remark =
-        "All " + std::to_string(item.contributing + item.not_consistent.size()) +
-        " results together are not consistent: chi-square " + gum::round_significant(all.chi_square, 4) + " on " +
-        text::count_of(static_cast<std::int64_t>(all.degrees_of_freedom), "degree") +
-        " of freedom, p = " + printed_probability(all.p_value) + ". The largest consistent subset leaves out ";
+    std::string remark = "All " + std::to_string(item.contributing + item.not_consistent.size()) +
+                         " results together are not consistent: chi-square " +
+                         gum::round_significant(all.chi_square, 4) + " on " +
+                         text::degrees_of_freedom(std::to_string(all.degrees_of_freedom)) +
+                         ", p = " + printed_probability(all.p_value) + ". The largest consistent subset leaves out ";
     remark += text::listed(recorded.not_consistent) +
               ". Being left out says that a result does not fit the others, not that it is wrong.";
     if (!recorded.in_another_subset.empty()) {

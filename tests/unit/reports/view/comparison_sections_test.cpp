@@ -641,9 +641,9 @@ TEST(ComparisonReport, ScoresDecideTheWords) {
     EXPECT_THAT(first(), HasSubstr(": L002."));
     c.items[0].score = "z_prime";
     c.points[2].signal = "warning";
-    EXPECT_THAT(first(), HasSubstr("1 of 5 scored results call for action (|z′| ≥ 3): L002. Warnings (|z′| > 2): 1."));
+    EXPECT_THAT(first(), HasSubstr("1 of 5 scored results calls for action (|z′| ≥ 3): L002. Warnings (|z′| > 2): 1."));
     c.points[1].signal = "none";
-    EXPECT_THAT(first(), HasSubstr("1 give a warning (|z′| > 2): L003."));
+    EXPECT_THAT(first(), HasSubstr("1 gives a warning (|z′| > 2): L003."));
     c.items[0].score = "D";
     c.points[2].signal = "action";
     EXPECT_THAT(first(), HasSubstr("largest error allowed"));
