@@ -150,8 +150,7 @@ void print_item(const reports::Comparison& comparison, const reports::Comparison
                     with_uncertainty(item.value.text, item.U.text, item.unit, item.difference_unit),
                     item.k.text.empty()
                         ? ""
-                        : "   (k = " + item.k.text +
-                              (item.U_rests_on == "scatter" && !item.nu.text.empty() ? ", nu = " + item.nu.text : "") +
+                        : "   (k = " + item.k.text + (item.nu.text.empty() ? "" : ", nu = " + item.nu.text) +
                               ", p = " + coverage + ")");
     if (item.consistency) {
         print_to_stdout("  consistency: chi-square {} on {}, p = {}{}\n", item.consistency->chi_square.text,

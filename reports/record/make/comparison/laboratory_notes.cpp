@@ -345,6 +345,27 @@ std::string subset_remark(const gum::ItemResult& item, const ComparisonItemEvalu
     return remark;
 }
 
+/// That E_n takes another U(X) than the one that is stated with a given value, or computed for the probability of the job.
+/// Of a reference laboratory the result is named with the others.
+void add_remark_on_factor_of_value(const gum::LaboratoryComparison& comparison, std::vector<std::string>& remarks) {
+    const auto is_converted = [](const gum::ItemResult& item) {
+        return item.U_of_scores && item.expanded_by != gum::ExpandedBy::scatter && !item.reference_participant;
+    };
+    const std::string taken = " is not that of about 95 %: En takes U(X) = k u(X) with the factor for " +
+                              in_percent(comparison.score_probability) + " and the degrees of freedom of u(X)";
+    if (any_item(comparison, [&](const gum::ItemResult& item) {
+            return is_converted(item) && item.expanded_by == gum::ExpandedBy::statement;
+        })) {
+        remarks.push_back("The coverage factor of a given assigned value" + taken + " in place of the given U(X).");
+    }
+    if (any_item(comparison, [&](const gum::ItemResult& item) {
+            return is_converted(item) && item.expanded_by != gum::ExpandedBy::statement;
+        })) {
+        remarks.push_back("The coverage factor of a computed assigned value" + taken +
+                          " in place of the U(X) that is printed.");
+    }
+}
+
 /// What U(X) covers, and what U of the results mean in E_n.
 void add_remarks_on_coverage(const Evaluated& evaluated, std::vector<std::string>& remarks) {
     const auto& [job, comparison, record] = evaluated;
@@ -394,12 +415,8 @@ void add_remarks_on_coverage(const Evaluated& evaluated, std::vector<std::string
     if (by_default) {
         remarks.emplace_back("The job names no way to the assigned value; the default was taken.");
     }
+    add_remark_on_factor_of_value(comparison, remarks);
     std::vector<std::string> converted;
-    if (any_item(comparison, [](const gum::ItemResult& item) {
-            return item.U_of_scores && item.expanded_by != gum::ExpandedBy::scatter && !item.reference_participant;
-        })) {
-        converted.emplace_back("X");
-    }
     for (const gum::ScoredResult& result : comparison.results) {
         const std::string& id = job.participants[result.participant].id;
         if (result.of_scores && std::find(converted.begin(), converted.end(), id) == converted.end()) {
@@ -409,8 +426,7 @@ void add_remarks_on_coverage(const Evaluated& evaluated, std::vector<std::string
     if (!converted.empty()) {
         remarks.push_back("The coverage factors of " + text::listed(converted, k_most_names_in_remark) +
                           " are not those of about 95 %: En takes U = k u with the factor for " +
-                          in_percent(comparison.score_probability) +
-                          " and the stated degrees of freedom in place of the stated U.");
+                          in_percent(comparison.score_probability) + " and the degrees of freedom of u in place of U.");
         const bool of_budget = std::any_of(
             comparison.results.begin(), comparison.results.end(),
             [](const gum::ScoredResult& result) { return result.of_scores && result.uncertainty->of_scores; });

@@ -163,9 +163,32 @@ TEST(ComparisonReport, FirstPageNamesTheAssignedValueWhoseFactorIsNotTaken) {
     item.U_of_scores = {};
     EXPECT_THAT(answer_of(record), Not(HasSubstr("in place of their U")));
     item.U_of_scores = {0.13, "0.13"};
-    EXPECT_THAT(answer_of(record), HasSubstr("The coverage factors of X are those of another"));
+    EXPECT_THAT(answer_of(record), HasSubstr("The coverage factor of the assigned value is that of another"));
+    EXPECT_THAT(answer_of(record), Not(HasSubstr("factors of X")));
     item.U_rests_on = "scatter";
     EXPECT_THAT(answer_of(record), Not(HasSubstr("in place of their U")));
+}
+
+/// U is read with ν wherever it is finite, whatever the value rests on.
+TEST(ComparisonReport, DegreesOfFreedomStandBesideTheFactorOfAnAssignedValue) {
+    EvaluationRecord record = one_item(6);
+    ComparisonItemEvaluation& item = record.comparison->items[0];
+    item.k = {2.2, "2.20"};
+    for (const std::string rests_on : {"scatter", "uncertainties", "statement"}) {
+        item.U_rests_on = rests_on;
+        item.nu = {11.4, "11.4"};
+        EXPECT_THAT(answer_of(record), HasSubstr("k = 2.20, ν = 11.4")) << rests_on;
+        item.nu = {};
+        EXPECT_THAT(answer_of(record), Not(HasSubstr("ν = 11.4"))) << rests_on;
+    }
+}
+
+TEST(ComparisonReport, FirstPageSaysWhatIsStatedOfTheArtefact) {
+    EvaluationRecord record = one_item(6);
+    record.comparison->artefact_stability = "drift below 5 nm in two years, in u(X)";
+    for (const std::string& language : k_languages) {
+        EXPECT_THAT(text_of(record, language), HasSubstr("drift below 5 nm in two years, in u(X)")) << language;
+    }
 }
 
 TEST(ComparisonReport, FirstPageSaysHowTheAssignedValueWasFoundAndWhoReportedNothing) {

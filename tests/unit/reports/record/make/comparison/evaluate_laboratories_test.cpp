@@ -931,6 +931,27 @@ TEST(WhatScoresSay, CoverageFactorsAreBroughtToOne) {
     EXPECT_EQ(evaluated(half).score_probability, 0.9545);
 }
 
+/// A remark names an assigned value as what it is: given with its U, or computed. "X" may be a laboratory.
+TEST(WhatScoresSay, FactorsOfAssignedValuesAreThoseOfNoLaboratory) {
+    const auto remarks_for = [](const std::optional<gum::AssignedValueRequest>& request, double p) {
+        ComparisonJob job = job_of({10.24, 10.0, 10.1}, {0.1, 0.1, 0.1});
+        job.participants[0].id = "X";
+        job.coverage_probability = p;
+        if (request) {
+            job.items[0].assigned_value = *request;
+        }
+        return evaluated(job).remarks;
+    };
+    const auto says = [](const std::string& text) { return testing::Contains(HasSubstr(text)); };
+    EXPECT_THAT(remarks_for(given(10.0, u_and_k(0.05, 1.0)), 0.9545),
+                testing::AllOf(says("factor of a given assigned value"), testing::Not(says("factors of X")),
+                               testing::Not(says("computed assigned value"))));
+    EXPECT_THAT(remarks_for(std::nullopt, 0.99),
+                testing::AllOf(says("factor of a computed assigned value"), testing::Not(says("factors of X")),
+                               testing::Not(says("stated U")), testing::Not(says("given U(X)"))));
+    EXPECT_THAT(remarks_for(std::nullopt, 0.9545), testing::Not(says("assigned value is not that of about 95 %")));
+}
+
 TEST(WhatScoresSay, ASignalOfAnyScoreIsTheSignal) {
     // z is small, and the laboratory claims more than it can: E_n = 0.3/√(0.1² + 0.02²).
     ComparisonJob job = job_of({10.3, 10.0, 10.05}, {0.05, 0.05, 0.05});
