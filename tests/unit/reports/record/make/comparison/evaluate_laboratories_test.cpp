@@ -1045,6 +1045,30 @@ TEST(WhatScoresSay, OneItemDoesNotLoseTheOthers) {
     EXPECT_THAT(notes[0].where, HasSubstr("item \"equal\""));
 }
 
+/// A subset of fewer than half of the results is no value of theirs.
+TEST(WhatScoresSay, MoreResultsAgainstASubsetThanForItLeaveNoValue) {
+    // The first three agree; the others lie apart from these and from each other.
+    const std::vector<double> x = {10.0, 10.05, 9.95, 11.0, 12.0, 13.0, 14.0, 15.0};
+    for (std::size_t n = 4; n <= x.size(); ++n) {
+        ComparisonJob job =
+            job_of({x.begin(), x.begin() + static_cast<std::ptrdiff_t>(n)}, std::vector<double>(n, 0.1));
+        job.items[0].assigned_value.method = AssignedValueMethod::largest_consistent_subset;
+        if (n <= 6) {  // three of six are half of them
+            EXPECT_EQ(evaluated(job).items[0].contributing, 3) << n;
+            continue;
+        }
+        job.items.push_back(item_in("other", "mm"));
+        for (std::size_t p = 0; p < n; ++p) {
+            add_result(job, p, 10.0 + 0.01 * static_cast<double>(p), u_and_k(0.1), 1);
+        }
+        const reports::Comparison comparison = evaluated(job);
+        ASSERT_EQ(comparison.items_without_result.size(), 1U) << n;
+        EXPECT_EQ(comparison.items_without_result[0].code, "GC-COMPARE-0114");
+        EXPECT_EQ(comparison.items_without_result[0].what,
+                  "the largest consistent subset holds 3 of " + std::to_string(n) + " results");
+    }
+}
+
 TEST(WhatScoresSay, NamesOfSourcesThatLookAlikeAreAskedAbout) {
     ComparisonJob job = job_of({1.0, 1.1, 0.9}, {0.1, 0.1, 0.1});
     job.results[0].sources = {{.source = "Std 17", .input = "", .contribution = 0.05}};
