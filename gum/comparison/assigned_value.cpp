@@ -308,6 +308,8 @@ AssignedValue median_by_trials(const ComparisonScheme& scheme, const LaboratoryD
     AssignedValue assigned;
     assigned.value = trials.median;
     assigned.u = trials.u;
+    assigned.degrees_of_freedom = trials.degrees_of_freedom;
+    assigned.leaves_out_degrees = trials.leaves_out_degrees;
     assigned.covariance = Eigen::VectorXd::Zero(size_of(data));
     for (std::size_t i = 0; i < data.contributing.size(); ++i) {
         // u²(x_i − y) = u_i² + u²(y) − 2 cov(x_i, y), all three over the same trials.

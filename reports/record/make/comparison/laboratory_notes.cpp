@@ -402,6 +402,11 @@ void add_remarks_on_coverage(const Evaluated& evaluated, std::vector<std::string
             "Weights that come from uncertainties with few degrees of freedom are uncertain themselves: U(X) of a "
             "weighted mean then covers less than it claims.");
     }
+    if (any_item(comparison, [](const gum::ItemResult& item) { return item.leaves_out_degrees; })) {
+        remarks.emplace_back(
+            "The trials of a median draw results that correlate from normal distributions, whatever their degrees of "
+            "freedom: U(X) then covers less than it claims.");
+    }
     if (any_item(comparison, [](const gum::ItemResult& item) {
             return item.consistency && item.consistency->test.of_finite_degrees;
         })) {

@@ -1013,6 +1013,26 @@ TEST(WhatScoresSay, IntervalsOfTrialsAreKept) {
     }
 }
 
+/// Of results with few degrees of freedom trials draw t distributions: U(X) of a median is that of its interval.
+TEST(WhatScoresSay, TrialsOfAMedianKnowDegreesOfFreedom) {
+    ComparisonJob job = job_of({10.0, 10.1, 9.9, 10.05, 9.95}, std::vector<double>(5, 0.1));
+    job.items[0].assigned_value.method = AssignedValueMethod::median;
+    job.items[0].assigned_value.median_by_trials = true;
+    const reports::ComparisonItemEvaluation normal = evaluated(job).items[0];
+    for (ComparisonResult& result : job.results) {
+        result.uncertainty->degrees_of_freedom = 3.0;
+    }
+    const reports::ComparisonItemEvaluation item = evaluated(job).items[0];
+    EXPECT_EQ(*item.u.number, *normal.u.number) << "u is that of the stated u";
+    EXPECT_EQ(item.value.number, normal.value.number);
+    EXPECT_FALSE(normal.nu.number);
+    EXPECT_GT(*item.k.number, 2.1);
+    EXPECT_NEAR(*item.k.number, gum::coverage_factor(0.9545, *item.nu.number), 1e-6);
+    EXPECT_NEAR(*item.U.number, 0.5 * (*item.high.number - *item.low.number), 0.03 * *item.U.number);
+    job.correlations = {{0, 1, 0.3}};
+    EXPECT_THAT(evaluated(job).remarks, testing::Contains(HasSubstr("whatever their degrees of freedom")));
+}
+
 TEST(WhatScoresSay, OneItemWithoutItsReferenceDoesNotLoseTheOthers) {
     ComparisonJob job = job_of({1.0, 1.1, 0.9}, {0.1, 0.1, 0.1});
     job.items.push_back(item_in("alone", "mm"));
