@@ -157,10 +157,15 @@ private:
             say("Where both methods have the same expanded uncertainty, all of it could be common to both, and no "
                 "finite En bounds what that would do.");
         }
+        if (whole().for_any_correlation && whole().verdict > gum::AgreementVerdict::correlation_unknown) {
+            say("The verdict holds whatever share of the smaller uncertainty is common to both methods: none, half and "
+                "the whole of it were judged, each with what chance makes.");
+        }
         const std::size_t above = whole().agreement.count_above_1;
         const std::size_t above_for_worst = whole().worst ? whole().worst->count_above_1 : 0;
         if (above_for_worst > above) {
-            const std::string rests = above == 0
+            const bool rests_on_it = whole().verdict == gum::AgreementVerdict::correlation_unknown;
+            const std::string rests = above == 0 && rests_on_it
                                           ? "The agreement rests on the assumption that both methods share nothing: "
                                           : "The number of points above 1 is that of methods that share nothing: ";
             say(rests + "with the worst plausible correlation |En| would be above 1 at " +
