@@ -49,6 +49,7 @@ reports::EvaluationRecord evaluate_comparison(const jobs::ComparisonJob& job,
     std::vector<gum::Diagnostic> found;
     reports::Comparison comparison =
         job.methods ? evaluate_methods(job, &found, judges) : evaluate_laboratories(job, progress, &found);
+    comparison.artefact_stability = job.artefact_stability;
     if (job.certificate) {
         const certificate::CertificateData& data = *job.certificate;
         comparison.languages = data.languages;
