@@ -213,7 +213,7 @@ private:
             scores.largest = std::max(scores.largest, size);
         }
     }
-    /// Of points, or of the participants at each item.
+    /// Of points, or of the participants at each item. Pairs of participants are no scores of their own.
     void take_scores(const std::string& number, const std::string& day, const json& comparison) {
         const std::string issued = gumcert::json::text_of(gumcert::json::part_of(comparison, "issuer"), "issued");
         ArchivedScores scores{.number = number, .day = day.empty() ? issued : day};

@@ -35,7 +35,9 @@ std::vector<gum::Diagnostic> notes_on(const jobs::ComparisonJob& job, std::vecto
                          .where = "job, certificate",
                          .what = "a comparison report is no calibration certificate",
                          .rule = "no accreditation symbol is put on it, and the checks before issue are not made",
-                         .action = "Put certificate data into the job of the calibration.",
+                         .action =
+                             "Number, laboratory and day of issue stand on the report; put other certificate data into "
+                             "the job of the calibration.",
                          .severity = gum::Severity::note});
     }
     return notes;
