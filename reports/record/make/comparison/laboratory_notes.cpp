@@ -333,6 +333,9 @@ std::string subset_remark(const gum::ItemResult& item, const ComparisonItemEvalu
                          ", p = " + printed_probability(all.p_value) + ". The largest consistent subset leaves out ";
     remark += text::listed(recorded.not_consistent) +
               ". Being left out says that a result does not fit the others, not that it is wrong.";
+    if (item.contributing == item.not_consistent.size()) {
+        remark += " As many results stand against the value as for it.";
+    }
     if (!recorded.in_another_subset.empty()) {
         const std::string names = text::listed(recorded.in_another_subset);
         remark += item.subset_unique ? " Another subset of the same size, with " + names +
@@ -468,7 +471,11 @@ void add_remarks_on_value(const Evaluated& evaluated, std::vector<std::string>& 
     add_remarks_on_coverage(evaluated, remarks);
     add_remark_on_statements(evaluated.comparison, remarks);
     if (any_item(comparison,
-                 [](const gum::ItemResult& item) { return is_robust(item) && item.contributing < k_few_for_robust; })) {
+                 // A median by trials rests on no scale.
+                 [](const gum::ItemResult& item) {
+                     return is_robust(item) && item.expanded_by == gum::ExpandedBy::scatter &&
+                            item.contributing < k_few_for_robust;
+                 })) {
         remarks.emplace_back(
             "Fewer than 12 results: the scale of a robust assigned value is rough, and its coverage factor large for "
             "it.");

@@ -1024,6 +1024,8 @@ TEST(WhatScoresSay, TrialsOfAMedianKnowDegreesOfFreedom) {
     }
     const reports::ComparisonItemEvaluation item = evaluated(job).items[0];
     EXPECT_EQ(*item.u.number, *normal.u.number) << "u is that of the stated u";
+    EXPECT_THAT(evaluated(job).remarks, testing::Not(testing::Contains(HasSubstr("scale of a robust"))))
+        << "it has none";
     EXPECT_EQ(item.value.number, normal.value.number);
     EXPECT_FALSE(normal.nu.number);
     EXPECT_GT(*item.k.number, 2.1);
@@ -1074,7 +1076,14 @@ TEST(WhatScoresSay, MoreResultsAgainstASubsetThanForItLeaveNoValue) {
             job_of({x.begin(), x.begin() + static_cast<std::ptrdiff_t>(n)}, std::vector<double>(n, 0.1));
         job.items[0].assigned_value.method = AssignedValueMethod::largest_consistent_subset;
         if (n <= 6) {  // three of six are half of them
-            EXPECT_EQ(evaluated(job).items[0].contributing, 3) << n;
+            const reports::Comparison comparison = evaluated(job);
+            EXPECT_EQ(comparison.items[0].contributing, 3) << n;
+            const auto said = testing::Contains(HasSubstr("As many results stand against the value as for it."));
+            if (n == 6) {
+                EXPECT_THAT(comparison.remarks, said);
+            } else {
+                EXPECT_THAT(comparison.remarks, testing::Not(said)) << n;
+            }
             continue;
         }
         job.items.push_back(item_in("other", "mm"));
