@@ -15,6 +15,7 @@
 
 #include "gum/argument_check.h"
 #include "gum/quantity/diagnostic.h"
+#include "text/degrees_of_freedom.h"
 #include "text/numbers.h"
 
 namespace gumcert::gum {
@@ -63,7 +64,7 @@ NoResultError no_finite_factor(double coverage_probability, double degrees_of_fr
                                     .where = "coverage factor",
                                     .what = "no finite value for coverage probability " +
                                             text::shortest(coverage_probability) + " and " +
-                                            text::shortest(degrees_of_freedom) + " degrees of freedom",
+                                            text::degrees_of_freedom(text::shortest(degrees_of_freedom)),
                                     .rule = "an expanded uncertainty needs a finite coverage factor",
                                     .action = "State the contribution with few degrees of freedom better."});
 }
@@ -130,7 +131,7 @@ double ellipsoid_coverage_factor(double coverage_probability, std::size_t output
     if (!(denominator > 0.0)) {
         throw NoResultError(Diagnostic{.code = "GC-GUM-0011",
                                        .where = "coverage region",
-                                       .what = text::shortest(degrees_of_freedom) + " degrees of freedom for " +
+                                       .what = text::degrees_of_freedom(text::shortest(degrees_of_freedom)) + " for " +
                                                std::to_string(outputs) + " outputs",
                                        .rule = "a joint region needs more degrees of freedom than outputs less one",
                                        .action = "Take more observations, or report intervals of single outputs."});

@@ -1,6 +1,7 @@
 #include "reports/program_sentences.h"
 
 #include "gum/quantity/diagnostic.h"
+#include "reports/forms_of_number.h"
 #include "reports/wording.h"
 
 #include <nlohmann/json.hpp>
@@ -8,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <set>
 #include <string_view>
 #include <utility>
 
@@ -75,6 +77,21 @@ Pieces pieces_of(const std::string& id, const std::string& pattern) {
                                                                   : Kind::sentence});
         at = close + 1;
     }
+}
+
+/// For each pattern that forms of number make of one, the names of the values that are 1 in it.
+std::vector<std::set<std::string>> which_are_one(const json& english) {
+    std::vector<std::set<std::string>> all(1);
+    const std::vector<std::string> names =
+        english.is_string() ? names_with_forms(english.get<std::string>()) : std::vector<std::string>();
+    for (const std::string& name : names) {
+        for (std::size_t i = all.size(); i-- > 0;) {
+            std::set<std::string> with_it = all[i];
+            with_it.insert(name);
+            all.push_back(std::move(with_it));
+        }
+    }
+    return all;
 }
 
 /// Whether a text begins as numbers do. "−" and "∞" are no single bytes.
@@ -173,27 +190,31 @@ ProgramSentences::ProgramSentences(const json& catalogue) {
         if (!texts.is_object() || !texts.contains("en")) {
             refuse(id, "no English text");
         }
-        Pattern pattern{.id = id, .english = {}, .translations = {}};
-        for (const auto& [language, text] : texts.items()) {
-            if (!text.is_string()) {
-                refuse(id + "/" + language, "no text");
+        for (const std::set<std::string>& ones : which_are_one(texts.at("en"))) {
+            Pattern pattern{.id = id, .english = {}, .translations = {}};
+            for (const auto& [language, text] : texts.items()) {
+                if (!text.is_string()) {
+                    refuse(id + "/" + language, "no text");
+                }
+                Pieces pieces = pieces_of(id, with_forms_of(text.get<std::string>(), [&](const std::string& name) {
+                                              return ones.contains(name);
+                                          }));
+                if (language == "en") {
+                    pattern.english = std::move(pieces);
+                } else {
+                    pattern.translations.emplace(language, std::move(pieces));
+                }
             }
-            Pieces pieces = pieces_of(id, text.get<std::string>());
-            if (language == "en") {
-                pattern.english = std::move(pieces);
-            } else {
-                pattern.translations.emplace(language, std::move(pieces));
+            for (const std::string& literal : pattern.english.literals) {
+                pattern.letters += literal.size();
             }
-        }
-        for (const std::string& literal : pattern.english.literals) {
-            pattern.letters += literal.size();
-        }
-        for (std::size_t i = 0; i + 1 < pattern.english.placeholders.size(); ++i) {
-            if (pattern.english.literals[i + 1].empty()) {
-                refuse(id, "two placeholders beside each other");
+            for (std::size_t i = 0; i + 1 < pattern.english.placeholders.size(); ++i) {
+                if (pattern.english.literals[i + 1].empty()) {
+                    refuse(id, "two placeholders beside each other");
+                }
             }
+            patterns.push_back(std::move(pattern));
         }
-        patterns.push_back(std::move(pattern));
     }
     std::stable_sort(patterns.begin(), patterns.end(),
                      [](const Pattern& a, const Pattern& b) { return a.letters > b.letters; });

@@ -27,7 +27,8 @@ namespace gumcert::reports {
 ///     {name:list}       numbers or phrases of the catalogue with commas between them
 ///     {name:sentence}   one or several sentences or phrases of the catalogue; as it is where it is none
 ///
-/// `{{` and `}}` are braces. A pattern with more letters of its own is preferred to one with fewer.
+/// `{{` and `}}` are braces. Forms of number, `{points} {points?point|points}` (forms_of_number.h), make several patterns of
+/// one, in every language the same forms; only values that English has forms of may have some. A pattern with more letters of its own is preferred to one with fewer.
 class ProgramSentences {
 public:
     /// \param catalogue  the object of sentences.json; copied

@@ -1,6 +1,7 @@
 #include "reports/wording.h"
 
 #include "gum/quantity/diagnostic.h"
+#include "reports/forms_of_number.h"
 
 #include <nlohmann/json.hpp>
 
@@ -153,7 +154,17 @@ Text Wording::filled(const std::string& group, const std::string& name, const Va
     const Text pattern = (*this)(group, name);
     std::vector<std::string> all;
     for (std::size_t language = 0; language < texts_.size(); ++language) {
-        const std::string& text = pattern.in(language);
+        const auto value_of = [&](const std::string& key) -> const std::string& {
+            const auto value =
+                std::find_if(values.begin(), values.end(), [&](const auto& v) { return v.first == key; });
+            if (value == values.end()) {
+                refuse(languages_[language], "/" + group + "/" + name,
+                       "names a value {" + key + "} that does not exist");
+            }
+            return value->second.in(language);
+        };
+        const std::string text =
+            with_forms_of(pattern.in(language), [&](const std::string& key) { return value_of(key) == "1"; });
         std::string out;
         std::size_t at = 0;
         while (at < text.size()) {
@@ -163,14 +174,7 @@ Text Wording::filled(const std::string& group, const std::string& name, const Va
                 out += text.substr(at);
                 break;
             }
-            const std::string key = text.substr(open + 1, close - open - 1);
-            const auto value =
-                std::find_if(values.begin(), values.end(), [&](const auto& v) { return v.first == key; });
-            if (value == values.end()) {
-                refuse(languages_[language], "/" + group + "/" + name,
-                       "names a value {" + key + "} that does not exist");
-            }
-            out += text.substr(at, open - at) + value->second.in(language);
+            out += text.substr(at, open - at) + value_of(text.substr(open + 1, close - open - 1));
             at = close + 1;
         }
         all.push_back(std::move(out));

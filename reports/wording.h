@@ -44,7 +44,7 @@ public:
     /// \throws gum::StorageError if the wording does not have it
     [[nodiscard]] const nlohmann::json& group(const std::string& name) const;
 
-    /// A text with every `{name}` replaced. Values are placed once and never looked at for names again.
+    /// A text with every `{name}` replaced, and its forms of number chosen (forms_of_number.h). Values are placed once.
     /// \throws gum::StorageError if the text names a value that is not given
     [[nodiscard]] Text filled(const std::string& group, const std::string& name, const Values& values) const;
     [[nodiscard]] Text fill(const std::string& sentence, const Values& values) const {

@@ -121,7 +121,8 @@ public:
     DocumentsOfRecord(const reports::EvaluationRecord& record, const ArchiveChecks& checks)
         : record_(record),
           checks_(checks),
-          number_(record.certificate->data.number),
+          identity_(stated_identity(record)),
+          number_(identity_.number),
           words_(reports::document_words(reports::read_every_wording(checks.templates))) {
         assets_.templates = checks.templates;
     }
@@ -158,7 +159,9 @@ public:
             document.bytes, file.string(), checks_.trusted.value_or(std::vector<signing::Bytes>()), checks_.now);
         if (is_pdf) {
             document.media_type = "application/pdf";
-            if (reports::printable(verification.pdf_keywords) != number_) {
+            // The report of a comparison has no such property: that each of its pages prints the number is asked below.
+            const bool may_have_none = !record_.certificate && verification.pdf_keywords.empty();
+            if (!may_have_none && reports::printable(verification.pdf_keywords) != number_) {
                 refuse_as_other(file, verification.pdf_keywords, number_);
             }
             check_pdf_signatures(file, verification, checks_.trusted.has_value(), findings);
@@ -214,6 +217,7 @@ public:
 private:
     const reports::EvaluationRecord& record_;
     const ArchiveChecks& checks_;
+    certificate::CertificateData identity_;
     std::string number_;
     reports::DocumentWords words_;
     reports::RenderAssets assets_;
@@ -373,9 +377,8 @@ private:
         if (!made_now_) {
             made_now_.emplace(std::vector{reports::texts_of_view(reports::view_of_document(record_, assets_))});
         }
-        refuse_disagreement(file,
-                            document.disagreement_with_facts(reports::facts_of(record_.certificate->data), *made_now_));
-        if (record_.certificate->tables.empty()) {
+        refuse_disagreement(file, document.disagreement_with_facts(reports::facts_of(identity_), *made_now_));
+        if (!record_.certificate || record_.certificate->tables.empty()) {
             refuse_disagreement(file, in_any_languages([&](const nlohmann::json& view) {
                                     return document.disagreement_with_report(view, words_);
                                 }));
@@ -563,30 +566,49 @@ std::string worded(const certificate::LocalisedText& text, const certificate::Ce
 
 }  // namespace
 
+certificate::CertificateData stated_identity(const reports::EvaluationRecord& record) {
+    certificate::CertificateData data;
+    if (record.certificate) {
+        data = record.certificate->data;
+    } else if (record.comparison && record.comparison->issuer) {
+        const reports::ComparisonIssuer& issuer = *record.comparison->issuer;
+        data.number = issuer.number;
+        data.laboratory.name = issuer.laboratory;
+        data.dates.issued = issuer.issued;
+        data.status = "not_accredited";
+        data.languages = record.comparison->languages;
+    }
+    return data;
+}
+
 CheckedDraft checked_draft(const fs::path& record_file, const std::vector<fs::path>& documents,
                            const ArchiveChecks& checks) {
     CheckedDraft checked;
     const std::string name = record_file.string();
     checked.draft.record = evaluation::read_file(record_file);
     checked.record = reports::record_from_json(checked.draft.record, name);
-    if (!checked.record.certificate || checked.record.certificate->data.number.empty()) {
+    const certificate::CertificateData data = stated_identity(checked.record);
+    if (data.number.empty()) {
         const bool compares = checked.record.kind == "comparison";
         throw gum::InputError(gum::Diagnostic{
             .code = "GC-ARCHIVE-0028",
             .where = name,
-            .what = compares ? "the record of a comparison, whose report is no certificate"
+            .what = compares ? "the record of a comparison whose report has no number"
                              : "a record without certificate data",
-            .rule = "an archive keeps certificates, each under its number",
-            .action = compares ? "keep record and report of a comparison with the files of its organiser"
-                               : "state the certificate data in the job, docs/certificate_data.md"});
+            .rule = "an archive keeps certificates and reports, each under its number",
+            .action = compares
+                          ? "state \"certificate\": {\"number\": …} in the job of the comparison, and evaluate it again"
+                          : "state the certificate data in the job, docs/certificate_data.md"});
     }
     reports::EvaluationRecord again = checked.record;
     if (const std::optional<gum::Diagnostic> why =
             evaluation::recompute_record(again, name, checks.threads, checks.templates, checks.progress)) {
         throw gum::InputError(*why);
     }
-    const certificate::CertificateData& data = checked.record.certificate->data;
     checked.draft.number = data.number;
+    if (!checked.record.certificate) {
+        checked.draft.item = checked.record.title;  // what was compared
+    }
     for (const certificate::Item* item : certificate::items_of(data)) {
         checked.draft.item += (checked.draft.item.empty() ? "" : "; ") + worded(item->description, data);
         checked.draft.item += item->serial_number.empty() ? "" : ", " + item->serial_number;
@@ -620,6 +642,10 @@ void state_amendment(CheckedDraft& amendment, const std::string& original) {
                "take the record of the original out of the archive, and evaluate the job again");
     }
     const reports::EvaluationRecord earlier = reports::record_from_json(original, "record of " + stated.number);
+    if (!earlier.certificate) {
+        refuse("amends \"" + stated.number + "\", which is the report of a comparison", "certificates are amended",
+               "withdraw the report, and add the corrected one under a number of its own");
+    }
     amendment.draft.amends = Draft::Amends{.number = stated.number, .kind = stated.kind, .changes = {}};
     for (const certificate::Change& change : reports::changes_between(earlier, amendment.record)) {
         amendment.draft.amends->changes.push_back({change.kind, change.where, change.before, change.after});
@@ -635,6 +661,9 @@ void state_amendment(CheckedDraft& amendment, const std::string& original) {
 
 void require_issuable(const std::string& record, const std::string& number, const std::string& day) {
     reports::EvaluationRecord read = reports::record_from_json(record, "record of " + number);
+    if (!read.certificate) {  // the report of a comparison has no gates
+        read.certificate.emplace().data = stated_identity(read);
+    }
     certificate::Certificate& certificate = *read.certificate;
     const bool specimen = certificate.data.status == "specimen";
     const bool early = certificate::block_issue_ahead_of_time(certificate, day);
@@ -653,7 +682,7 @@ void require_issuable(const std::string& record, const std::string& number, cons
 void require_named_person(const std::string& record, const std::string& number, const std::string& kind,
                           const std::string& person) {
     const reports::EvaluationRecord read = reports::record_from_json(record, "record of " + number);
-    const certificate::Persons& persons = read.certificate->data.persons;
+    const certificate::Persons persons = stated_identity(read).persons;
     const bool reviews = kind == "reviewed";
     const std::optional<certificate::Person>& named = reviews ? persons.reviewed_by : persons.authorised_by;
     if (named && !named->name.empty() && !may_be_one_person(named->name, person)) {
@@ -676,7 +705,7 @@ void require_named_person(const std::string& record, const std::string& number, 
 std::vector<gum::Diagnostic> doubts_about_days(const std::string& record, const std::string& number,
                                                const std::string& kind, const std::string& day) {
     const reports::EvaluationRecord read = reports::record_from_json(record, "record of " + number);
-    const certificate::Dates& dates = read.certificate->data.dates;
+    const certificate::Dates dates = stated_identity(read).dates;
     const bool authorises = kind == "authorised";
     const std::string& printed = authorises ? dates.authorised : dates.issued;
     // The log has the day by UTC, and the certificate that of the laboratory.

@@ -30,11 +30,15 @@ struct CheckedDraft {
     std::vector<gum::Diagnostic> remarks;  ///< warnings and notes
 };
 
+/// The certificate data of a record. Of a comparison those that its report prints: number, laboratory, day of issue,
+/// languages; nothing where it has none.
+[[nodiscard]] certificate::CertificateData stated_identity(const reports::EvaluationRecord& record);
+
 /// Reads a record and the documents that belong to it. What `gumcert check` finds wrong with the record, or `gumcert
 /// check dcc` and `gumcert verify` with a document, is refused, and so is a document of another certificate.
 /// \param documents  PDF, digital certificates (XML), HTML
 /// \throws gum::StorageError  if a file cannot be read
-/// \throws gum::InputError    GC-ARCHIVE-0028 for a record that is no certificate's, -0029 for a document that does not
+/// \throws gum::InputError    GC-ARCHIVE-0028 for a record without a number, -0029 for a document that does not
 ///                            belong to it, and what the checks found
 [[nodiscard]] CheckedDraft checked_draft(const std::filesystem::path& record,
                                          const std::vector<std::filesystem::path>& documents,
@@ -42,8 +46,8 @@ struct CheckedDraft {
 
 /// Puts the machine-made list of changes into the draft of an amendment.
 /// \param original  bytes of the archived record of the certificate that it names
-/// \throws gum::InputError  GC-ARCHIVE-0035 where it was compared with another record than the archived one, or nothing
-///                          has changed
+/// \throws gum::InputError  GC-ARCHIVE-0035 where it was compared with another record than the archived one, nothing has
+///                          changed, or the original is the report of a comparison
 void state_amendment(CheckedDraft& amendment, const std::string& original);
 
 /// Whether a certificate may be issued today.

@@ -12,6 +12,8 @@
 #include "gum/distribution_quantile.h"
 #include "json/canonical_json.h"
 #include "json/members.h"
+#include "text/degrees_of_freedom.h"
+#include "text/lists.h"
 #include "text/numbers.h"
 #include "text/visible_text.h"
 
@@ -211,17 +213,10 @@ private:
             scores.largest = std::max(scores.largest, size);
         }
     }
-    /// Of points, or of the participants at each item.
+    /// Of points, or of the participants at each item. Pairs of participants are no scores of their own.
     void take_scores(const std::string& number, const std::string& day, const json& comparison) {
-        ArchivedScores scores{.number = number, .day = day};
-        const json& items = gumcert::json::part_of(comparison, "items");
-        if (items.is_array() && !items.empty()) {
-            for (const json& item : items) {
-                for (const json& row : gumcert::json::part_of(item, "pairs")) {
-                    add_score(scores, row);
-                }
-            }
-        }
+        const std::string issued = gumcert::json::text_of(gumcert::json::part_of(comparison, "issuer"), "issued");
+        ArchivedScores scores{.number = number, .day = day.empty() ? issued : day};
         for (const json& point : gumcert::json::part_of(comparison, "points")) {
             add_score(scores, point);
         }
@@ -298,8 +293,9 @@ std::string statistics_text(const ArchiveStatistics& statistics) {
     for (const RepeatabilityChart& chart : statistics.charts) {
         text += &chart == statistics.charts.data() ? "Repeatability: pooled standard deviation of a reading\n" : "";
         text += "  " + place_of(chart) + ": " + digits(chart.pooled_standard_deviation) + " " +
-                text::visible(chart.unit, 20) + ", " + std::to_string(chart.degrees_of_freedom) +
-                " degrees of freedom, " + std::to_string(chart.scatters.size()) + " sets of readings\n";
+                text::visible(chart.unit, 20) + ", " +
+                text::degrees_of_freedom(std::to_string(chart.degrees_of_freedom)) + ", " +
+                text::count_of(static_cast<std::int64_t>(chart.scatters.size()), "set") + " of readings\n";
         for (const ArchivedScatter& one : chart.scatters) {
             if (one.is_above()) {
                 text += "    ABOVE THE LIMIT: " + text::visible(one.number, 40) + "  " + text::visible(one.day, 20) +

@@ -527,7 +527,9 @@ AuditedComparison comparison_of(const reports::Comparison& stated) {
     }
     for (const reports::ComparisonItemEvaluation& item : stated.items) {
         comparison.items.push_back(audited_item(item));
+        comparison.items.back().has_stability |= !stated.artefact_stability.empty();
     }
+    comparison.instability_in_reference = !stated.artefact_stability.empty();
     return comparison;
 }
 

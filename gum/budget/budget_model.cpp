@@ -15,6 +15,7 @@
 #include "gum/quantity/decimal_rounding.h"
 #include "gum/quantity/special_values.h"
 #include "gum/rounding.h"
+#include "text/degrees_of_freedom.h"
 #include "text/numbers.h"
 
 namespace gumcert::gum {
@@ -191,7 +192,8 @@ void set_degrees_of_freedom(const Budget& budget, const std::vector<std::size_t>
     }
     group.degrees_of_freedom = least;
     if (least == most && !std::isinf(least)) {
-        add_note(result, "GC-BUDGET-0010", group.name, "correlated, with " + shown(least) + " degrees of freedom each",
+        add_note(result, "GC-BUDGET-0010", group.name,
+                 "correlated, with " + text::degrees_of_freedom(shown(least)) + " each",
                  "taken as one ensemble of observations, which has that number as a whole",
                  "State `simultaneous` observations where there are some.");
     } else if (least < most) {

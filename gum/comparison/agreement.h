@@ -151,7 +151,7 @@ enum class AgreementVerdict {
     disagreement,
     points_above_1,  ///< more points with |E_n| > 1 than chance explains
     joint_test_open,  ///< one of the bounds of a joint test objects, and another does not; or only rounding would have to
-    correlation_unknown,          ///< agreement only if both methods share nothing: |E_n| > 1 for the worst plausible r
+    correlation_unknown,          ///< agreement if both methods share nothing, and an objection for a plausible r
     reference_not_better,         ///< U of the reference ≥ U of the method: it cannot validate it
     uncertainty_too_large,        ///< p_low < 0.025
     agreement_few_points,         ///< power_to_confirm < k_least_power_to_confirm: the verdict would be one of chance

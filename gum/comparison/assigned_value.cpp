@@ -308,6 +308,8 @@ AssignedValue median_by_trials(const ComparisonScheme& scheme, const LaboratoryD
     AssignedValue assigned;
     assigned.value = trials.median;
     assigned.u = trials.u;
+    assigned.degrees_of_freedom = trials.degrees_of_freedom;
+    assigned.leaves_out_degrees = trials.leaves_out_degrees;
     assigned.covariance = Eigen::VectorXd::Zero(size_of(data));
     for (std::size_t i = 0; i < data.contributing.size(); ++i) {
         // u²(x_i − y) = u_i² + u²(y) − 2 cov(x_i, y), all three over the same trials.
@@ -329,6 +331,17 @@ AssignedValue median_by_trials(const ComparisonScheme& scheme, const LaboratoryD
 
 AssignedValue largest_subset(const LaboratoryData& data, double alpha) {
     const ConsistentSubset subset = consistent_subset_of(data, alpha);
+    // The method takes those that agree for right and the others for wrong. Where more results contradict the value
+    // than support it, the results themselves refute that.
+    if (2 * subset.members.size() < data.contributing.size()) {
+        throw NoResultError(Diagnostic{
+            .code = "GC-COMPARE-0114",
+            .where = data.where,
+            .what = "the largest consistent subset holds " + std::to_string(subset.members.size()) + " of " +
+                    std::to_string(data.contributing.size()) + " results",
+            .rule = "at least half of the results must speak for it",
+            .action = "Look for groups of results and for what tells them apart; one value does not describe them."});
+    }
     AssignedValue assigned = linear_value(data, data.contributing, subset.mean);
     assigned.degrees_of_freedom = degrees_of_freedom_of(data, assigned);
     for (std::size_t i = 0; i < data.contributing.size(); ++i) {

@@ -39,6 +39,7 @@ struct AssignedValue {
     double degrees_of_freedom = std::numeric_limits<double>::infinity();
     /// u is not that of the scatter, but that which the stated uncertainties and their covariance give the value.
     bool u_by_statements = false;
+    bool leaves_out_degrees = false;          ///< see MedianTrials
     std::optional<ResultUncertainty> stated;  ///< where one result, or the scheme, states it
     /// n, where the value is linear in the results, y = Σ w_i x_i; empty else
     Eigen::VectorXd weights;

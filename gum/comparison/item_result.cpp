@@ -63,6 +63,7 @@ void describe(const ComparisonScheme& scheme, const LaboratoryData& data, const 
     }
     result.subset_unique = assigned.subset_unique;
     result.u_by_statements = assigned.u_by_statements;
+    result.leaves_out_degrees = assigned.leaves_out_degrees;
     for (const std::size_t i : assigned.in_another_subset) {
         result.in_another_subset.push_back(participant(i));
     }

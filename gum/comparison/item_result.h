@@ -77,7 +77,8 @@ struct ItemResult {
 
     /// Test of all contributing results where the largest consistent subset leaves some of them out.
     std::optional<ConsistencyTest> consistency_of_all = {};
-    bool u_by_statements = false;  ///< see AssignedValue
+    bool u_by_statements = false;     ///< see AssignedValue
+    bool leaves_out_degrees = false;  ///< see MedianTrials
     bool subset_unique = true;
     std::vector<std::size_t> in_another_subset = {};  ///< of `not_consistent`, see ConsistentSubset::in_another
     bool correlation_known = true;                    ///< of the value with the results, see AssignedValue

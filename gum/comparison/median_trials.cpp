@@ -1,5 +1,7 @@
 #include <Eigen/Core>
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -9,6 +11,7 @@
 #include "gum/argument_check.h"
 #include "gum/comparison/correlated_results.h"
 #include "gum/comparison/reference_value.h"
+#include "gum/coverage.h"
 #include "gum/monte_carlo/monte_carlo_statistics.h"
 #include "gum/monte_carlo/random_draws.h"
 #include "gum/monte_carlo/worker_threads.h"
@@ -45,7 +48,7 @@ void require_possible_trials(const LaboratoryResults& results, std::size_t trial
 /// trials can be kept. Values are relative to that of the most precise result.
 class Blocks {
 public:
-    Blocks(const LaboratoryResults& results, std::size_t trials, std::uint64_t seed)
+    Blocks(const LaboratoryResults& results, std::size_t trials, std::uint64_t seed, bool draw_t = false)
         : correlated_(results.covariance.size() != 0), seed_(seed), size_(results.x.size()) {
         // As many results as fit into the memory that is kept for their draws over all trials: memory must not grow
         // with their number.
@@ -64,6 +67,10 @@ public:
                 group.covariance.diagonal() = results.u.array().square();
             } else {
                 group.covariance = results.u.segment(first, count).array().square();
+                for (Index i = first; draw_t && i < first + count; ++i) {
+                    group.marginals.push_back(
+                        Distribution::student_t(x(i), results.u(i), results.degrees_of_freedom(i)));
+                }
             }
             groups_.push_back(std::move(group));
         }
@@ -151,18 +158,14 @@ Series describe(std::span<double> values, const CoverageRanks& ranks) {
 
 }  // namespace
 
-MedianTrials median_trials(const LaboratoryResults& results, std::size_t trials, std::uint64_t seed,
-                           double coverage_probability, unsigned threads) {
-    require_results(results);
-    require_probability(coverage_probability, "coverage probability");
-    require_possible_trials(results, trials);
-    const Index n = results.x.size();
-    const CoverageRanks ranks(coverage_probability, trials);
-    WorkerThreads workers(threads);
-    const Blocks blocks(results, trials, seed);
+namespace {
+
+/// Median and differences of all trials. Values are relative to that of the most precise result, as the draws are.
+MedianTrials trials_of(const Blocks& blocks, Index n, std::size_t trials, const CoverageRanks& ranks,
+                       WorkerThreads& workers, std::vector<double>& medians) {
     // The medians first, then the draws once more, block by block: all draws at once may be gigabytes, and counters
     // give the same numbers again.
-    std::vector<double> medians = medians_of_trials(blocks.all(workers), trials, workers);
+    medians = medians_of_trials(blocks.all(workers), trials, workers);
     MedianTrials outcome{.d = Eigen::VectorXd(n),
                          .u_d = Eigen::VectorXd(n),
                          .d_low = Eigen::VectorXd(n),
@@ -189,10 +192,63 @@ MedianTrials median_trials(const LaboratoryResults& results, std::size_t trials,
         });
     }
     const Series median = describe(medians, ranks);
-    outcome.median = blocks.centre() + median.mean;
+    outcome.median = median.mean;
     outcome.u = median.u;
-    outcome.low = blocks.centre() + median.low;
-    outcome.high = blocks.centre() + median.high;
+    outcome.low = median.low;
+    outcome.high = median.high;
+    return outcome;
+}
+
+/// ν of the t distribution whose interval at a probability is `factor` standard uncertainties wide to each side; infinite
+/// where the normal one is not narrower.
+double degrees_of_factor(double factor, double coverage_probability) {
+    constexpr double k_fewest = 0.5;
+    constexpr double k_most = 1000.0;  // more cannot be told from a normal distribution by trials
+    if (factor <= coverage_factor(coverage_probability, k_most)) {
+        return std::numeric_limits<double>::infinity();
+    }
+    double low = std::log(k_fewest);
+    double high = std::log(k_most);
+    constexpr int k_halvings = 60;
+    for (int i = 0; i < k_halvings; ++i) {
+        const double middle = 0.5 * (low + high);
+        (coverage_factor(coverage_probability, std::exp(middle)) > factor ? low : high) = middle;
+    }
+    return std::exp(high);
+}
+
+}  // namespace
+
+MedianTrials median_trials(const LaboratoryResults& results, std::size_t trials, std::uint64_t seed,
+                           double coverage_probability, unsigned threads) {
+    require_results(results);
+    require_probability(coverage_probability, "coverage probability");
+    require_possible_trials(results, trials);
+    const Index n = results.x.size();
+    const CoverageRanks ranks(coverage_probability, trials);
+    WorkerThreads workers(threads);
+    std::vector<double> medians;
+    const Blocks blocks(results, trials, seed);
+    MedianTrials outcome = trials_of(blocks, n, trials, ranks, workers, medians);
+    const bool has_degrees = (results.degrees_of_freedom.array() < std::numeric_limits<double>::infinity()).any();
+    outcome.leaves_out_degrees = has_degrees && results.covariance.size() != 0;
+    if (has_degrees && !outcome.leaves_out_degrees) {
+        // The t has no standard deviation for few degrees of freedom, so that u and u(D) stay those of the stated u.
+        const MedianTrials of_t = trials_of(Blocks(results, trials, seed, true), n, trials, ranks, workers, medians);
+        outcome.low = of_t.low;
+        outcome.high = of_t.high;
+        outcome.d_low = of_t.d_low;
+        outcome.d_high = of_t.d_high;
+        for (double& median : medians) {
+            median = std::abs(median - outcome.median);
+        }
+        const auto at = medians.begin() + static_cast<std::ptrdiff_t>(ranks.inside - 1);
+        std::nth_element(medians.begin(), at, medians.end());
+        outcome.degrees_of_freedom = degrees_of_factor(*at / outcome.u, coverage_probability);
+    }
+    outcome.median += blocks.centre();
+    outcome.low += blocks.centre();
+    outcome.high += blocks.centre();
     return outcome;
 }
 

@@ -365,6 +365,66 @@ bool has_bias_line(const MethodSummary& row, const MethodResult& result) {
     return row.direction != "all" || result.summaries.size() == 1;
 }
 
+/// Whether points of both sides can be judged for every plausible correlation of the methods: each pair of values for
+/// itself, with an uncertainty that is left where the whole of the smaller one is common. What points share with each
+/// other could be common to both sides in any way, and of finite ν it is not known how they would be.
+bool can_be_judged_for_any_correlation(const MethodComparison& comparison, const Differences& differences,
+                                       const std::vector<Index>& points) {
+    constexpr double k_clearly_smaller = 0.99;
+    constexpr double k_equal_factors = 0.025;
+    const auto is_diagonal = [&](const Eigen::MatrixXd& covariance) {
+        const Eigen::MatrixXd chosen = covariance(points, points);
+        const Eigen::MatrixXd variances = chosen.diagonal().asDiagonal();
+        return chosen == variances;
+    };
+    const auto is_judged = [&](Index i) {
+        const auto at = static_cast<std::size_t>(i);
+        const ComparedPoint& point = comparison.points[at];
+        const double larger = std::max(point.u, point.reference_u);
+        const double factor = differences.of_method[at].U / point.u;
+        const double of_reference = differences.of_reference[at].U / point.reference_u;
+        return std::isinf(point.nu.value_or(k_infinity)) && std::isinf(point.reference_nu.value_or(k_infinity)) &&
+               std::min(point.u, point.reference_u) < k_clearly_smaller * larger &&
+               std::abs(factor - of_reference) < k_equal_factors * of_reference;
+    };
+    return is_diagonal(comparison.covariance) && is_diagonal(comparison.reference_covariance) &&
+           std::all_of(points.begin(), points.end(), is_judged);
+}
+
+/// The verdict where it is not known what both methods share: one that holds whatever it is, from nothing to the whole
+/// of the smaller uncertainty. What a right U is confirmed with, and what refutes a wrong one, is the least of all.
+/// \param row  of no correlation
+AgreementVerdict verdict_for_any_correlation(const MethodComparison& comparison, const MethodSummary& row,
+                                             double probability, const std::optional<BiasTest>& test, bool has_line,
+                                             Agreement& agreement_of_row) {
+    const AgreementVerdict without = agreement_verdict(agreement_of_row, std::nullopt, test);
+    if (without < AgreementVerdict::correlation_unknown) {
+        return without;
+    }
+    for (const double share : {0.5, 1.0}) {
+        MethodComparison shared = comparison;
+        shared.correlation_unknown = false;
+        Eigen::VectorXd common(static_cast<Index>(comparison.points.size()));
+        for (Index i = 0; i < common.size(); ++i) {
+            const ComparedPoint& point = comparison.points[static_cast<std::size_t>(i)];
+            const double smaller = std::min(point.u, point.reference_u);
+            common(i) = share * smaller * smaller;
+        }
+        shared.cross_covariance = common.asDiagonal();
+        const MethodDifferences chosen = selected(differences_of(shared).all, row.points);
+        const Agreement judged = agreement(chosen, probability, agreement_of_row.family);
+        const std::optional<MethodBias> bias = has_line ? bias_of(shared, chosen, row.points) : std::nullopt;
+        if (agreement_verdict(judged, std::nullopt, bias ? bias->test : std::nullopt) <
+            AgreementVerdict::correlation_unknown) {
+            return AgreementVerdict::correlation_unknown;
+        }
+        agreement_of_row.power_to_confirm = std::min(agreement_of_row.power_to_confirm, judged.power_to_confirm);
+        agreement_of_row.p_if_too_small = std::max(agreement_of_row.p_if_too_small, judged.p_if_too_small);
+        agreement_of_row.p_if_too_large = std::max(agreement_of_row.p_if_too_large, judged.p_if_too_large);
+    }
+    return agreement_verdict(agreement_of_row, std::nullopt, test);
+}
+
 /// What a comparison with these findings corrected is judged to be.
 void add_corrected_verdicts(const MethodComparison& comparison, MethodResult& result) {
     const MethodComparison better = corrected(comparison);
@@ -384,8 +444,11 @@ void add_corrected_verdicts(const MethodComparison& comparison, MethodResult& re
             const std::optional<MethodBias> bias = bias_of(better, chosen, row.points);
             test = bias ? bias->test : std::nullopt;
         }
-        row.verdict_audited =
-            agreement_verdict(agreement(chosen, result.score_probability, family_of(row, result)), worst, test);
+        Agreement judged = agreement(chosen, result.score_probability, family_of(row, result));
+        row.verdict_audited = worst && can_be_judged_for_any_correlation(better, differences, row.points)
+                                  ? verdict_for_any_correlation(better, row, result.score_probability, test,
+                                                                has_bias_line(row, result), judged)
+                                  : agreement_verdict(judged, worst, test);
     }
 }
 
@@ -408,7 +471,11 @@ MethodResult compare_methods(const MethodComparison& comparison) {
             row.bias = bias_of(comparison, chosen, row.points);
         }
         row.slope_of_noise = slope_of_noise(comparison, row.points);
-        row.verdict = agreement_verdict(row.agreement, largest_of(row.worst), row.bias ? row.bias->test : std::nullopt);
+        const std::optional<BiasTest> test = row.bias ? row.bias->test : std::nullopt;
+        row.for_any_correlation = row.worst && can_be_judged_for_any_correlation(comparison, differences, row.points);
+        row.verdict = row.for_any_correlation ? verdict_for_any_correlation(comparison, row, p, test,
+                                                                            has_bias_line(row, result), row.agreement)
+                                              : agreement_verdict(row.agreement, largest_of(row.worst), test);
     }
     if (comparison.is_audited()) {
         add_corrected_verdicts(comparison, result);

@@ -70,6 +70,7 @@ struct MethodSummary {
     std::optional<EnVariant> worst = {};  ///< where r is not known; the largest is infinite where nothing bounds it
     std::optional<EnVariant> audited = {};
     AgreementVerdict verdict = AgreementVerdict::disagreement;  ///< of the uncertainties as stated
+    bool for_any_correlation = false;  ///< where r is not known: judged for every plausible one, with chance
     /// With findings on the uncertainties corrected, where there are such: the method stands only where both do.
     std::optional<AgreementVerdict> verdict_audited = {};
     std::optional<MethodBias> bias = {};
@@ -89,7 +90,9 @@ struct MethodResult {
 ///
 /// Differences are judged with their full covariance, V + V_ref − C − Cᵀ (gum/comparison/agreement.h), and with the
 /// degrees of freedom of their uncertainties by Welch and Satterthwaite (JCGM 100:2008, G.4.1). Equal finite ν and equal
-/// u of several points of a side are one estimate.
+/// u of several points of a side are one estimate. Where it is not known what both methods share, the verdict is one that
+/// holds for nothing, for half and for the whole of the smaller uncertainty, as long as points do not share anything with
+/// each other and ν is infinite; else |E_n| of every point for the whole of it must not be above 1.
 /// \throws InputError, NoResultError  GC-COMPARE-0201 sizes that do not fit, -0202 a correlation beyond 1, -0203 a
 ///                     direction that is called "all"; those of score() and agreement() with the point in `where`
 [[nodiscard]] MethodResult compare_methods(const MethodComparison& comparison);

@@ -164,12 +164,17 @@ struct MedianTrials {
     Eigen::VectorXd d, u_d;         ///< n, x_i − median, over the trials
     Eigen::VectorXd d_low, d_high;  ///< n, shortest coverage intervals
     std::size_t trials = 0;
+    /// ν with which t_p(ν) u about the median covers the share p of the trials
+    double degrees_of_freedom = std::numeric_limits<double>::infinity();
+    bool leaves_out_degrees = false;  ///< of correlated results
 };
 inline constexpr std::size_t k_fewest_median_trials = 1'000;
 inline constexpr std::size_t k_most_median_trials = 10'000'000;
 inline constexpr std::size_t k_most_median_draws = 500'000'000;            ///< results × trials
 inline constexpr std::size_t k_most_correlated_median_draws = 50'000'000;  ///< the same with a covariance
-/// Every trial draws all results from normal distributions (jointly, with a covariance) and takes their median.
+/// Every trial draws all results from normal distributions (jointly, with a covariance) and takes their median. Where
+/// independent results state degrees of freedom, intervals and ν come from as many trials more that draw t distributions,
+/// scaled by u and shifted to the values (JCGM 101:2008, 6.4.9); those of correlated results are left out.
 /// Same bytes for any number of threads. Memory: 0.15 GB and 8 bytes a trial, whatever the number of results.
 /// \param trials  k_fewest_median_trials … k_most_median_trials
 /// \param threads  0: as many as the machine has

@@ -66,8 +66,7 @@ inline constexpr InputCode k_degrees_of_freedom_of_nothing{"GC-INPUT-0540",
                                                            "degrees of freedom without an uncertainty"};
 inline constexpr InputCode k_compared_job{"GC-INPUT-0541", "a job that cannot be one side of a comparison"};
 inline constexpr InputCode k_unit_of_value{"GC-INPUT-0542", "a value in another unit than the comparison takes it in"};
-inline constexpr InputCode k_reason_of_nothing{"GC-INPUT-0543",
-                                               "a reason beside a value that enters the assigned value"};
+inline constexpr InputCode k_reason_of_nothing{"GC-INPUT-0543", "a reason beside a value that is scored"};
 inline constexpr InputCode k_column_in_capitals{"GC-INPUT-0544", "a column that is known in other letters"};
 
 // Warnings: the input is accepted, and a person should look at it.

@@ -81,7 +81,7 @@ private:
         JobReader reader(root);
         reader.read(stated_, {"title", "coverage_probability"});
         read_unused_texts(root);
-        reader.read(stated_, {"organiser"});
+        reader.read(stated_, {"organiser", "artefact_stability"});
         job_.independent_sources = read_texts(reading, root, "independent_sources");
         job_.different_sources = read_texts(reading, root, "different_sources");
     }

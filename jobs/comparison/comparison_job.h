@@ -103,6 +103,8 @@ struct ComparisonJob : gum::ComparisonScheme {
     std::string title;
     std::vector<ComparisonResult> results;  ///< in the order of the files
     std::vector<MissingResult> missing = {};
+    /// What is known of the stability of the artefact, and where it is in the uncertainties; "" where nothing is stated.
+    std::string artefact_stability = {};
     /// Names of sources that look alike and are different ones, for sure.
     std::vector<std::string> different_sources = {};
 

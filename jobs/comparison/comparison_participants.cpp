@@ -474,9 +474,10 @@ bool ParticipantsReader::read_cells(const CsvTable& table, std::size_t row, Comp
     if (!result.reason.empty() && !is_stated(table, row, c_contributes)) {
         problems.refuse(
             k_reason_of_nothing, table.where(table.cell(row, c_reason)),
-            "the reason " + text::in_quotes(result.reason) + " beside a value that contributes", k_what_a_reason_tells,
-            "write \"no\" into a column \"contributes\", or \"yes\" where the value counts all the same; of a "
-            "result that was withdrawn leave the value empty");
+            "the reason " + text::in_quotes(result.reason) + " beside a value, without a word in \"contributes\"",
+            k_what_a_reason_tells,
+            "write \"no\" into a column \"contributes\", or \"yes\" where it is no such reason: the value is scored "
+            "either way; of a result that was withdrawn leave the value empty");
     }
     if (states_s != states_n) {
         problems.refuse(k_result_without_replicates, table.where(table.cell(row, states_s ? c_s : c_n)),
@@ -548,9 +549,10 @@ void ParticipantsReader::read_result(const JsonObject& object, std::size_t parti
         }
     }
     if (object.has("reason") && !object.has("contributes") && !is_missing) {
-        object.refuse(k_reason_of_nothing, "reason", "a reason beside a value that contributes", k_what_a_reason_tells,
-                      "add \"contributes\": false, or true where the value counts all the same; of a result that was "
-                      "withdrawn leave the value out");
+        object.refuse(k_reason_of_nothing, "reason", "a reason beside a value, without \"contributes\"",
+                      k_what_a_reason_tells,
+                      "add \"contributes\": false, or true where it is no such reason: the value is scored either way; "
+                      "of a result that was withdrawn leave the value out");
     }
     if (!result.contributes && !object.has("reason") && !is_missing) {
         object.refuse(k_no_reason, "contributes", "the result does not contribute, without a reason",

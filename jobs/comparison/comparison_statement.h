@@ -342,6 +342,8 @@ void describe(Archive& a, ComparisonStatement& r) {
     describe_notes(a);
     a("coverage_probability", r.job.coverage_probability, In{k_probability_of_results}, "0.9545 when left out.");
     a("organiser", r.job.organiser, k_sentence, "Of the comparison, for the report.");
+    a("artefact_stability", r.job.artefact_stability, k_sentence,
+      "What is known of the stability of what was compared, and in which uncertainty it is.");
     a.by_code("independent_sources", Several{Label{}},
               "Sources that several budgets name, and that are not shared all the same.");
     a.by_code("different_sources", Several{Label{}},

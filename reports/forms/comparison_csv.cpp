@@ -45,6 +45,20 @@ CsvColumn number(const char* head, Number Point::*member) {
     return {head, [member](const Point& p) { return cell(p.*member); }};
 }
 
+/// "En z": words of the record have no blanks.
+std::string joined(const std::vector<std::string>& words) {
+    std::string all;
+    for (const std::string& word : words) {
+        all += (all.empty() ? "" : " ") + word;
+    }
+    return all;
+}
+
+/// Of an item without a result, a row that says so.
+std::string cell_of(const ItemWithoutResult& item, std::string_view head) {
+    return head == "item" ? item.id : head == "round" ? item.round : "";
+}
+
 /// "inf" where no finite number bounds it.
 CsvColumn worst_en() {
     return {"En_worst", [](const Point& p) {
@@ -133,6 +147,7 @@ std::vector<CsvColumn> all_columns(const Comparison& comparison, const Items& it
             number("z", &Point::z),
             number("z_prime", &Point::z_prime),
             text("signal", &Point::signal),
+            {"signal_by", [](const Point& p) { return joined(p.signal_by); }},
             text("realism", &Point::realism),
             number("U_over_CMC", &Point::U_over_CMC),
             number("U_over_median", &Point::U_over_median)};
@@ -151,24 +166,34 @@ std::string comparison_csv(const EvaluationRecord& record) {
     }
     const Comparison& comparison = *record.comparison;
     const Items items(comparison);
-    std::vector<std::string> rows(comparison.points.size() + 1);
-    for (const CsvColumn& column : all_columns(comparison, items)) {
-        std::vector<std::string> cells;
-        cells.reserve(comparison.points.size());
-        bool any = false;
-        for (const Point& p : comparison.points) {
-            cells.push_back(column.cell(p));
-            any = any || !cells.back().empty();
+    const std::vector<ItemWithoutResult>& without = comparison.items_without_result;
+    std::vector<std::string> rows(comparison.points.size() + without.size() + 1);
+    const auto add = [&rows](std::string_view head, const std::vector<std::string>& cells) {
+        if (std::all_of(cells.begin(), cells.end(), [](const std::string& one) { return one.empty(); })) {
+            return;
         }
-        if (!any) {
-            continue;
-        }
-        const char* separator = rows.front().empty() ? "" : ",";
-        rows.front() += std::string(separator) + column.head;
+        const std::string separator = rows.front().empty() ? "" : ",";
+        rows.front() += separator + std::string(head);
         for (std::size_t i = 0; i < cells.size(); ++i) {
             rows[i + 1] += separator + text::csv_field(cells[i]);
         }
+    };
+    for (const CsvColumn& column : all_columns(comparison, items)) {
+        std::vector<std::string> cells;
+        cells.reserve(rows.size());
+        for (const Point& p : comparison.points) {
+            cells.push_back(column.cell(p));
+        }
+        for (const ItemWithoutResult& item : without) {
+            cells.push_back(cell_of(item, column.head));
+        }
+        add(column.head, cells);
     }
+    std::vector<std::string> because(comparison.points.size());
+    for (const ItemWithoutResult& item : without) {
+        because.push_back(item.what + " [" + item.code + "]");
+    }
+    add("no_result_because", because);
     std::string out;
     for (const std::string& row : rows) {
         out += row + '\n';

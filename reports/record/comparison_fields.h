@@ -419,6 +419,7 @@ void describe(Archive& a, Struct& r) {
     a.added("youden", r.youden);
     a.added("issuer", r.issuer);
     a.added("refuted", r.refuted);
+    a.added("artefact_stability", r.artefact_stability);
 }
 
 }  // namespace gumcert::reports

@@ -493,6 +493,7 @@ struct Comparison {
     std::string unit = "um";            ///< of a comparison of methods
     std::string position_name = {}, position_unit = {};
     std::string organiser = {};
+    std::string artefact_stability = {};        ///< as stated; "" where nothing is
     std::vector<BudgetRow> method_budget = {};  ///< of one value of the laboratory's side, from its budget or sources
     std::string correlation = {};               ///< of the two methods: "none", "given", "unknown", "shared_sources"
     std::optional<double> correlation_given = {};

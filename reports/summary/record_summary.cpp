@@ -14,6 +14,7 @@
 #include "reports/record/comparison_scores.h"
 #include "reports/record/record_kinds.h"
 #include "reports/view/comparison_sections.h"
+#include "text/degrees_of_freedom.h"
 #include "text/lists.h"
 
 namespace gumcert::reports {
@@ -144,21 +145,19 @@ void add_item(std::string& text, const Comparison& comparison, const ComparisonI
     if (!name.empty() || !round.empty()) {
         text += fmt::format("\n{}{}{}\n", name, name.empty() || round.empty() ? "" : ", ", round);
     }
-    text +=
-        fmt::format("  assigned value ({}) {}{}\n", method_in_words(item.method),
-                    with_uncertainty(item.value.text, item.U.text, item.unit, item.difference_unit),
-                    item.k.text.empty()
-                        ? ""
-                        : "   (k = " + item.k.text +
-                              (item.U_rests_on == "scatter" && !item.nu.text.empty() ? ", nu = " + item.nu.text : "") +
-                              ", p = " + coverage + ")");
+    text += fmt::format("  assigned value ({}) {}{}\n", method_in_words(item.method),
+                        with_uncertainty(item.value.text, item.U.text, item.unit, item.difference_unit),
+                        item.k.text.empty()
+                            ? ""
+                            : "   (k = " + item.k.text + (item.nu.text.empty() ? "" : ", nu = " + item.nu.text) +
+                                  ", p = " + coverage + ")");
     if (item.consistency) {
-        text +=
-            fmt::format("  consistency: chi-square {} on {} of freedom, p = {}{}\n", item.consistency->chi_square.text,
-                        text::count_of(item.consistency->degrees_of_freedom, "degree"), item.consistency->p_value.text,
-                        item.consistency->consistent  ? ""
-                        : item.consistency->by_chance ? "   not consistent, as one of several items is by chance"
-                                                      : "   NOT consistent");
+        text += fmt::format("  consistency: chi-square {} on {}, p = {}{}\n", item.consistency->chi_square.text,
+                            text::degrees_of_freedom(std::to_string(item.consistency->degrees_of_freedom)),
+                            item.consistency->p_value.text,
+                            item.consistency->consistent  ? ""
+                            : item.consistency->by_chance ? "   not consistent, as one of several items is by chance"
+                                                          : "   NOT consistent");
     }
     add_names(text, "without a result", item.missing);
     add_names(text, "not in the largest consistent subset", item.not_consistent);
@@ -205,8 +204,9 @@ void add_laboratories(std::string& text, const Comparison& comparison, const std
     for (const ComparisonPoint& point : comparison.points) {
         inconclusive += point.signal == "inconclusive" ? 1U : 0U;
     }
-    text += fmt::format("\n{} results: {} with an action signal, {} with a warning signal\n", comparison.points.size(),
-                        actions, warnings);
+    text +=
+        fmt::format("\n{}: {} with an action signal, {} with a warning signal\n",
+                    text::count_of(static_cast<std::int64_t>(comparison.points.size()), "result"), actions, warnings);
     if (inconclusive > 0) {
         text += fmt::format(
             "{} cannot be judged: the assigned value is too uncertain for them, of unknown uncertainty, or one of "
@@ -295,10 +295,10 @@ void add_rotary_table(std::string& text, const EvaluationRecord& record) {
         const Printed& printed = range.stated.printed;
         text += fmt::format("  {}  range {:>7} ± {} {}\n", range.name, printed.value, printed.U, printed.unit);
     }
-    text +=
-        fmt::format("\nAdjustment: {} observations, {} parameters, chi-square {} on {} degrees of freedom, p = {}\n",
-                    rotary.adjustment.observations, rotary.adjustment.parameters, rotary.adjustment.chi_square.text,
-                    rotary.adjustment.degrees_of_freedom, rotary.adjustment.p_value.text);
+    text += fmt::format("\nAdjustment: {} observations, {} parameters, chi-square {} on {}, p = {}\n",
+                        rotary.adjustment.observations, rotary.adjustment.parameters, rotary.adjustment.chi_square.text,
+                        text::degrees_of_freedom(std::to_string(rotary.adjustment.degrees_of_freedom)),
+                        rotary.adjustment.p_value.text);
     std::size_t removed = 0;
     for (const FlaggedDistance& distance : rotary.flagged) {
         removed += distance.removed ? 1 : 0;

@@ -229,7 +229,7 @@ Text assigned_value_text(const Wording& words, const ComparisonItemEvaluation& i
     if (!item.k.text.empty()) {
         text += separator + "k = " + words.number(item.k.text);
     }
-    if (item.U_rests_on == "scatter" && !item.nu.text.empty()) {
+    if (!item.k.text.empty() && !item.nu.text.empty()) {
         text += separator + "ν = " + words.number(item.nu.text);
     }
     return text;

@@ -338,15 +338,22 @@ void vectors_in_brief(CertificateBuilder& builder, const Wording& words, const C
 
 /// Whose stated factor E_n does not take.
 void factors_in_brief(CertificateBuilder& builder, const Wording& words, const Comparison& c) {
-    std::vector<std::string> names;
+    const Text probability = words.number(certificate::printed_coverage_probability(c.score_probability) + " %");
+    std::vector<std::string> items;
     for (const ComparisonItemEvaluation& item : c.items) {
-        // Of a reference laboratory the result is named; scatter has no stated factor.
+        // Of a reference laboratory the result is named; the factor of a scatter is that of no probability.
         if (item.U_of_scores.number && item.U_rests_on != "scatter" && item.method != "reference") {
             const std::string name = name_of_item(c, item.id);
-            const std::string of = item.round.empty() ? name : name.empty() ? item.round : name + ", " + item.round;
-            names.push_back(c.items.size() == 1 ? "X" : "X (" + of + ")");
+            items.push_back(item.round.empty() ? name : name.empty() ? item.round : name + ", " + item.round);
         }
     }
+    if (!items.empty()) {
+        const bool only_one = c.items.size() == 1;
+        builder.paragraph(words.filled("comparison",
+                                       only_one ? "factor_of_value_in_brief" : "factors_of_values_in_brief",
+                                       {{"names", some_of(words, items)}, {"p", probability}}));
+    }
+    std::vector<std::string> names;
     for (const ComparisonPoint& p : c.points) {
         if (p.U_of_scores.number && std::find(names.begin(), names.end(), p.participant) == names.end()) {
             names.push_back(p.participant);
@@ -354,9 +361,7 @@ void factors_in_brief(CertificateBuilder& builder, const Wording& words, const C
     }
     if (!names.empty()) {
         builder.paragraph(
-            words.filled("comparison", "factors_in_brief",
-                         {{"names", some_of(words, names)},
-                          {"p", words.number(certificate::printed_coverage_probability(c.score_probability) + " %")}}));
+            words.filled("comparison", "factors_in_brief", {{"names", some_of(words, names)}, {"p", probability}}));
     }
 }
 
@@ -389,6 +394,7 @@ void assigned_values_table(CertificateBuilder& builder, const Wording& words, co
         rows.push_back({compared.name, reference_value_method(words, item.method),
                         printed_quantity(words, item.value.text, item.unit),
                         printed_quantity(words, item.U.text, item.difference_unit), item.k.text,
+                        item.k.text.empty() ? std::string() : item.nu.text,
                         printed_quantity(words, item.sigma_pt.text, item.difference_unit),
                         printed_quantity(words, item.delta_E.text, item.difference_unit),
                         some_of(words, item.missing)});
@@ -399,6 +405,7 @@ void assigned_values_table(CertificateBuilder& builder, const Wording& words, co
                              {"X", "", true},
                              {"U(X)", "", true},
                              {"k", "", true},
+                             {"ν", "", true},
                              {words("comparison", "sigma_pt"), "", true},
                              {"δ_E", "", true},
                              {words("comparison", "missing"), ""}},

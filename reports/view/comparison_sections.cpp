@@ -24,6 +24,7 @@ namespace {
 Facts who_and_when(const Wording& words, const EvaluationRecord& record) {
     const ComparisonIssuer issuer = record.comparison->issuer.value_or(ComparisonIssuer{});
     Facts facts = {{words("comparison", "organiser"), record.comparison->organiser}};
+    add_fact(facts, words("comparison", "artefact_stability"), record.comparison->artefact_stability);
     add_fact(facts, words("comparison", "laboratory"), words.localised(issuer.laboratory));
     add_fact(facts, words("comparison", "number"), issuer.number);
     add_fact(facts, words("comparison", "issued"), issuer.issued);

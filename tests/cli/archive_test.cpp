@@ -189,7 +189,58 @@ TEST_F(ArchiveOfALaboratory, TakesARecordOfACertificateOnly) {
         {"evaluate", path("key_comparison.json"), "-o", path("comparison.json"), "--share", GUMCERT_SOURCE_DIR, "-q"});
     ASSERT_LE(compared.code, 1) << compared.err;
     const Ended refused = archive({"add", path("comparison.json")}, "R. Lin");
-    EXPECT_TRUE(tells(refused, "[GC-ARCHIVE-0028]") && tells(refused, "comparison, whose report")) << refused.err;
+    EXPECT_TRUE(tells(refused, "[GC-ARCHIVE-0028]") && tells(refused, "comparison whose report has no number"))
+        << refused.err;
+}
+
+// A report of a comparison has a number, and no gates, persons or digital certificate: it is kept as certificates are.
+TEST_F(ArchiveOfALaboratory, KeepsTheReportOfAComparison) {
+    begin();
+    const json job = {
+        {"schema", "gumcert/job/1"},
+        {"kind", "comparison"},
+        {"title", "Comparison of gauge blocks"},
+        {"unit", "um"},
+        {"assigned_value", {{"value", 12.2}, {"U", 0.1}, {"k", 2}}},
+        {"artefact_stability", "no change in two years, in U(X)"},
+        {"certificate",
+         {{"number", "CMP-2026-3"},
+          {"laboratory", {{"name", "Example Institute"}}},
+          {"languages", {"en"}},
+          {"dates", {{"issued", "2026-11-02"}}}}},
+        {"participants", {{{"id", "A"}, {"value", 12.31}, {"u", 0.10}}, {{"id", "B"}, {"value", 12.18}, {"u", 0.12}}}}};
+    write_bytes(folder() / "pt.json", job.dump());
+    const std::string record = path("pt-record.json");
+    const std::string page = path("pt.html");
+    Ended ended = gumcert({"evaluate", path("pt.json"), "-o", record, "--share", GUMCERT_SOURCE_DIR, "-q"});
+    ASSERT_EQ(ended.code, 0) << ended.err;
+    ended = gumcert({"render", record, "--format", "html", "-o", page, "--share", GUMCERT_SOURCE_DIR, "-q"});
+    ASSERT_EQ(ended.code, 0) << ended.err;
+    const std::string text = bytes_of(page);
+    std::string changed = text;
+    changed.replace(changed.find("12.31"), 5, "12.13");
+    write_bytes(page, changed);
+    EXPECT_TRUE(tells(archive({"add", record, page}, "R. Lin"), "[GC-ARCHIVE-0038]"));
+    write_bytes(page, text);
+    EXPECT_TRUE(tells(archive({"amend", record, page}, "R. Lin"), "is the record of a comparison"));
+    ended = archive({"add", record, page}, "R. Lin");
+    ASSERT_EQ(ended.code, 0) << ended.err;
+    lead_to_issue("CMP-2026-3");
+    const json list = shown({"list", "gauge", "blocks"});
+    ASSERT_EQ(list["certificates"].size(), 1U);
+    EXPECT_EQ(list["certificates"][0]["state"], "issued");
+    EXPECT_EQ(shown({"show", "CMP-2026-3"})["documents"].size(), 1U);
+    EXPECT_EQ(archive({"verify"}).code, 0);
+    EXPECT_EQ(archive({"replay"}).code, 0);
+    EXPECT_TRUE(tells(archive({"statistics"}), "  2  0  0.49")) << "pairs are no scores of their own";
+    EXPECT_EQ(verified_elsewhere({store()}).code, 0);
+    const std::string evidence = path("evidence.json");
+    ended = archive({"export", "CMP-2026-3", "-o", evidence});
+    ASSERT_EQ(ended.code, 0) << ended.err;
+    EXPECT_EQ(gumcert({"archive", "verify", evidence, page, "--share", GUMCERT_SOURCE_DIR}).code, 0);
+    EXPECT_EQ(verified_elsewhere({evidence, page}).code, 0);
+    const Ended audited = gumcert({"audit", record, "--format", "json", "--share", GUMCERT_SOURCE_DIR});
+    EXPECT_EQ(audited.out.find("\"N07\""), std::string::npos) << "the stability is stated";
 }
 
 // What reading leaves out of a digital certificate is no fault of a document that says what its record says.

@@ -1,7 +1,7 @@
 """Every sentence that the program writes into a record has its wording in four languages, and every text of the wording
 is used.
 
-Four laws:
+Five laws:
 1. A text of words in the sources that make findings, remarks and messages, every gate among them, stands in an English pattern of
    templates/wording/sentences.json. Texts that are put together of several literals are found literal by literal.
 2. Every entry of sentences.json has a text in each language, with the same placeholders, and the languages have the same
@@ -10,6 +10,8 @@ Four laws:
 4. Every pattern that the audit says (say(), say_count()) has its translations in templates/wording/audit_sentences.json, with
    the same places, each once, and the same numbers; no other entry stands there, and no source of the audit has a
    sentence of words that is no pattern.
+5. A noun that has a singular and a plural behind one number has both behind every number of its file, and no source writes
+   "degrees of freedom" behind a number by itself (text/degrees_of_freedom.h): "1 degrees of freedom" is printed nowhere.
 """
 
 import json
@@ -63,6 +65,7 @@ NOT_IN_RECORDS = (
     " in the frame of the machine",
 )
 
+FORMS = re.compile(r"\{[a-z_]+\?([^|}]*)\|([^}]*)\}")  # reports/forms_of_number.h
 LITERAL = re.compile(r'"((?:[^"\\]|\\.)*)"')
 
 
@@ -87,12 +90,16 @@ def is_sentence(text: str) -> bool:
 
 def placeholders(pattern: str) -> set[str]:
     bare = pattern.replace("{{", "").replace("}}", "")
-    return {name.split(":")[0] for name in re.findall(r"\{([^}]*)\}", bare)}
+    return {re.split("[:?]", name)[0] for name in re.findall(r"\{([^}]*)\}", bare)}
 
 
 def literals(pattern: str) -> list[str]:
-    bare = pattern.replace("{{", "\1").replace("}}", "\2")
-    return [part.replace("\1", "{").replace("\2", "}") for part in re.split(r"\{[^}]*\}", bare)]
+    parts = []
+    for form in (r"\1", r"\2"):
+        bare = FORMS.sub(lambda found: found.expand(form).replace("#", "{}"), pattern)
+        bare = bare.replace("{{", "\1").replace("}}", "\2")
+        parts += [part.replace("\1", "{").replace("\2", "}") for part in re.split(r"\{[^}]*\}", bare)]
+    return parts
 
 
 def unknown_sentences(root: pathlib.Path, catalogue: dict) -> list[str]:
@@ -190,6 +197,56 @@ def unused_keys(root: pathlib.Path) -> list[str]:
             by_code = f'words("{group}", ' in text or f'.has("{group}", ' in text or f'.filled("{group}", ' in text
             if not (whole or start or end or by_code):
                 problems.append(f"en.json: /{group}/{name} is used by no source")
+    return problems
+
+
+FORMS_BEHIND = re.compile(r"\{([a-z_]+)(?::\w+)?\} \{\1\?([^|}]*)\|([^}]*)\}")
+SEVERAL = ("{effective}", "{effective:number}", "{nu_reference}", "{pool}")  # no counts; the second one of two numbers
+TWO_NUMBERS = (  # "with 1 and 4 degrees of freedom"; or one that is never 1
+    "gum/analysis_of_variance.cpp",
+    "jobs/budget/budget_statement.cpp",
+    "reports/record/make/budget/budget_findings.cpp",
+    "reports/record/make/circle_closure/circle_closure_findings.cpp",
+)
+
+
+def texts_in(wording: dict, at: str = "") -> list[tuple[str, str]]:
+    texts = []
+    for key, value in wording.items():
+        texts += texts_in(value, f"{at}/{key}") if isinstance(value, dict) else [(f"{at}/{key}", value)]
+    return texts
+
+
+def plural_of_one(texts: list[tuple[str, str]], name: str) -> list[str]:
+    """Places where a noun stands in the plural behind any number, though it has a singular in another sentence."""
+    nouns = {found[2] for _, text in texts for found in FORMS_BEHIND.findall(text)}
+    if not nouns:
+        return [f"{name}: no noun has a singular and a plural"]
+    alone = re.compile(r"(\{[a-z_]+(?::\w+)?\}) (" + "|".join(sorted(map(re.escape, nouns), key=len, reverse=True)) + r")\b")
+    return [
+        f"{name}#{at}: {found[0]} {found[1]}, also where it is 1"
+        for at, text in texts
+        for found in alone.findall(text)
+        if found[0] not in SEVERAL
+    ]
+
+
+def plurals(root: pathlib.Path, catalogue: dict) -> list[str]:
+    problems = []
+    for language in ("en", "de", "es"):
+        wording = json.loads((root / "templates/wording" / f"{language}.json").read_text(encoding="utf-8"))
+        problems += plural_of_one(texts_in(wording), f"{language}.json")
+        of_records = [(f"/{key}", entry[language]) for key, entry in catalogue.items() if language in entry]
+        problems += plural_of_one(of_records, f"sentences.json, {language}")
+    for path in sorted(root.glob("**/*.cpp")):
+        folder = path.relative_to(root).parts[0]
+        if folder in ("build", "tests", "examples", "text", "node_modules"):
+            continue
+        if str(path.relative_to(root)) in TWO_NUMBERS:
+            continue
+        source = without_comments(path.read_text(encoding="utf-8"))
+        if re.search(r"\+\s*\" degrees of freedom|\{\} degrees of freedom", source):
+            problems.append(f"{path.relative_to(root)}: \"degrees of freedom\" behind a number, also where it is 1")
     return problems
 
 
@@ -300,6 +357,7 @@ def main(root: pathlib.Path) -> int:
         + unused_keys(root)
         + unknown_sentences(root, catalogue)
         + unworded_audit(root, catalogue)
+        + plurals(root, catalogue)
     )
     for problem in problems:
         print(problem)

@@ -24,6 +24,7 @@
 #include "engine/rotary_table/start/wrong_labels.h"
 #include "engine/rotary_table/station_covariance.h"
 #include "gum/quantity/units.h"
+#include "text/degrees_of_freedom.h"
 #include "text/numbers.h"
 
 namespace gumcert::engine {
@@ -788,7 +789,7 @@ void note_undetermined_components(RotaryTableSolution& solution, const RotaryTab
             {"GC-VARIANCE-0007", "variance components, " + component.name,
              "the residuals give " + size_of(component, *component.residuals_give) +
                  ", and hardly determine it: taken is " + size_of(component, component.value) + " with " +
-                 text::significant(component.degrees_of_freedom, 2) + " degrees of freedom",
+                 text::degrees_of_freedom(text::significant(component.degrees_of_freedom, 2)),
              "a variance below its own uncertainty is not known to be 0: it enters with the mean of what the residuals "
              "leave plausible",
              "state the repeatability of the table where it is known from earlier work (\"mode\": \"given\"), or "

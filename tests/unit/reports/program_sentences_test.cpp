@@ -2,6 +2,7 @@
 
 #include "gum/quantity/diagnostic.h"
 #include "reports/forms/asset_files.h"
+#include "reports/forms_of_number.h"
 #include "reports/wording.h"
 #include "tests/unit/reports/document_text.h"
 
@@ -110,6 +111,21 @@ TEST(ProgramSentences, AreWorded) {
     EXPECT_EQ(all.worded("the value 1.5 of R is missing", "fr", ","), "the value 1.5 of R is missing");
 }
 
+/// One pattern is several: with one and with more of a thing, in every language.
+TEST(ProgramSentences, HaveFormsOfNumber) {
+    const ProgramSentences all(json::parse(R"({"a": {
+        "en": "p on {nu} {nu?degree|degrees} of freedom at {n} {n?point|points}",
+        "de": "p mit {nu} {nu?Freiheitsgrad|Freiheitsgraden} an {n?einem Punkt|# Punkten}"}})"));
+    EXPECT_EQ(all.worded("p on 1 degree of freedom at 5 points", "de", ","), "p mit 1 Freiheitsgrad an 5 Punkten");
+    EXPECT_EQ(all.worded("p on 2 degrees of freedom at 1 point", "de", ","), "p mit 2 Freiheitsgraden an einem Punkt");
+    EXPECT_EQ(all.worded("p on 1 degree of freedom at 1 point", "de", ","), "p mit 1 Freiheitsgrad an einem Punkt");
+    const Wording words(json::parse(R"({"language": "en", "document": {"decimal_sign": "."},
+                                        "g": {"t": "{n} {n?result differs|results differ} of {m}"}})"));
+    EXPECT_EQ(words.filled("g", "t", {{"n", "1"}, {"m", "1"}}).first(), "1 result differs of 1");
+    EXPECT_EQ(words.filled("g", "t", {{"n", "0"}, {"m", "1"}}).first(), "0 results differ of 1");
+    EXPECT_THROW(static_cast<void>(words.filled("g", "t", {{"m", "1"}})), gum::StorageError);
+}
+
 TEST(ProgramSentences, RefuseADamagedCatalogue) {
     for (const char* text : {R"({"a": {"de": "x"}})", R"({"a": {"en": "x {name"}})", R"({"a": {"en": "x {n:colour}"}})",
                              R"({"a": {"en": "{a}{b}"}})", R"({"a": "x"})", R"({"a": {"en": 1}})"}) {
@@ -138,39 +154,43 @@ TEST(ProgramSentences, AreEachFoundAgain) {
     EXPECT_GT(file.size(), 300U);
     static const std::regex k_placeholder(R"(\{(\w+)(:(\w+))?\})");
     for (const auto& [id, texts] : file.items()) {
-        std::string english;
-        std::vector<IdentifiedSentence::Argument> arguments;
-        std::string pattern = texts.at("en").get<std::string>();
-        std::smatch match;
-        int number = 0;
-        while (std::regex_search(pattern, match, k_placeholder)) {
-            ++number;
-            const std::string value =
-                match[3] == "number" ? std::to_string(number) + ".5" : "Qx" + std::to_string(number) + "z";
-            english += match.prefix().str() + value;
-            arguments.push_back({.name = match[1], .value = value});
-            pattern = match.suffix();
-        }
-        english += pattern;
-        english =
-            std::regex_replace(std::regex_replace(english, std::regex(R"(\{\{)"), "{"), std::regex(R"(\}\})"), "}");
-        const auto found = all.identified(english);
-        ASSERT_TRUE(found.has_value()) << id << ": " << english;
-        ASSERT_EQ(found->size(), 1U) << id << ": " << english;
-        if (id != "where/point_name") {  // the same words for a name in place of a number
-            EXPECT_EQ(found->front().id, id) << english;
-            EXPECT_EQ(found->front().arguments, arguments) << id;
-        }
-        for (const auto& [language, sign] : {std::pair("de", ","), std::pair("es", ","), std::pair("zh-Hant", ".")}) {
-            const std::string worded = all.worded(english, language, sign);
-            if (id != "finding/P05") {  // it has no words of its own
-                EXPECT_NE(worded, english) << id << " " << language;
+        for (const bool one : {false, true}) {
+            std::string english;
+            std::vector<IdentifiedSentence::Argument> arguments;
+            std::string pattern =
+                with_forms_of(texts.at("en").get<std::string>(), [&](const std::string&) { return one; });
+            std::smatch match;
+            int number = 0;
+            while (std::regex_search(pattern, match, k_placeholder)) {
+                ++number;
+                const std::string value =
+                    match[3] == "number" ? std::to_string(number) + ".5" : "Qx" + std::to_string(number) + "z";
+                english += match.prefix().str() + value;
+                arguments.push_back({.name = match[1], .value = value});
+                pattern = match.suffix();
             }
-            for (const IdentifiedSentence::Argument& argument : arguments) {
-                EXPECT_THAT(worded, ::testing::HasSubstr(argument.value.starts_with("Qx")
-                                                             ? argument.value
-                                                             : with_decimal_sign(argument.value, sign)))
-                    << id << " " << language;
+            english += pattern;
+            english =
+                std::regex_replace(std::regex_replace(english, std::regex(R"(\{\{)"), "{"), std::regex(R"(\}\})"), "}");
+            const auto found = all.identified(english);
+            ASSERT_TRUE(found.has_value()) << id << ": " << english;
+            ASSERT_EQ(found->size(), 1U) << id << ": " << english;
+            if (id != "where/point_name") {  // the same words for a name in place of a number
+                EXPECT_EQ(found->front().id, id) << english;
+                EXPECT_EQ(found->front().arguments, arguments) << id;
+            }
+            for (const auto& [language, sign] :
+                 {std::pair("de", ","), std::pair("es", ","), std::pair("zh-Hant", ".")}) {
+                const std::string worded = all.worded(english, language, sign);
+                if (id != "finding/P05") {  // it has no words of its own
+                    EXPECT_NE(worded, english) << id << " " << language;
+                }
+                for (const IdentifiedSentence::Argument& argument : arguments) {
+                    EXPECT_THAT(worded, ::testing::HasSubstr(argument.value.starts_with("Qx")
+                                                                 ? argument.value
+                                                                 : with_decimal_sign(argument.value, sign)))
+                        << id << " " << language;
+                }
             }
         }
     }

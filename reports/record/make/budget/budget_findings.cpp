@@ -17,6 +17,7 @@
 #include "reports/record/make/budget/budget_texts.h"
 #include "reports/record/make/record_parts.h"
 #include "reports/record/make/remark.h"
+#include "text/degrees_of_freedom.h"
 #include "text/lists.h"
 #include "text/numbers.h"
 
@@ -64,7 +65,7 @@ reports::Remark refuted_fit(const FitSummary& fit) {
         .message = {.code = "GC-BUDGET-0032",
                     .where = "fit " + fit.name,
                     .what = "chi-square is " + fit.sum_of_squares.text + " with " +
-                            text::shortest(fit.degrees_of_freedom) + " degrees of freedom (p-value " +
+                            text::degrees_of_freedom(text::shortest(fit.degrees_of_freedom)) + " (p-value " +
                             fit.p_value.text + "): the residuals are " + fit.residual_standard_deviation.text +
                             " times as large as the stated uncertainties of the data explain",
                     .rule = "a fit is used when its residuals do not refute the stated uncertainties and the curve: "
@@ -85,8 +86,8 @@ reports::Remark overstated_fit(const FitSummary& fit) {
         .message = {.code = "GC-BUDGET-0033",
                     .where = "fit " + fit.name,
                     .what = "chi-square is " + fit.sum_of_squares.text + " with " +
-                            text::shortest(fit.degrees_of_freedom) +
-                            " degrees of freedom: the residuals are far smaller than the stated uncertainties of "
+                            text::degrees_of_freedom(text::shortest(fit.degrees_of_freedom)) +
+                            ": the residuals are far smaller than the stated uncertainties of "
                             "the data",
                     .rule = "by chance alone this happens less than once in a hundred fits",
                     .action = "See whether the uncertainties hold what all points have in common (a standard, a "

@@ -35,7 +35,9 @@ std::vector<gum::Diagnostic> notes_on(const jobs::ComparisonJob& job, std::vecto
                          .where = "job, certificate",
                          .what = "a comparison report is no calibration certificate",
                          .rule = "no accreditation symbol is put on it, and the checks before issue are not made",
-                         .action = "Put certificate data into the job of the calibration.",
+                         .action =
+                             "Number, laboratory and day of issue stand on the report; put other certificate data into "
+                             "the job of the calibration.",
                          .severity = gum::Severity::note});
     }
     return notes;
@@ -49,6 +51,7 @@ reports::EvaluationRecord evaluate_comparison(const jobs::ComparisonJob& job,
     std::vector<gum::Diagnostic> found;
     reports::Comparison comparison =
         job.methods ? evaluate_methods(job, &found, judges) : evaluate_laboratories(job, progress, &found);
+    comparison.artefact_stability = job.artefact_stability;
     if (job.certificate) {
         const certificate::CertificateData& data = *job.certificate;
         comparison.languages = data.languages;

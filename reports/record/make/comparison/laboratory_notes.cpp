@@ -9,6 +9,7 @@
 #include "gum/rounding.h"
 #include "reports/record/make/comparison/comparison_print.h"
 #include "reports/record/make/record_parts.h"
+#include "text/degrees_of_freedom.h"
 #include "text/lists.h"
 #include "text/numbers.h"
 
@@ -84,7 +85,7 @@ bool inconsistent(const gum::ItemResult& item) {
 std::string test_text(const ComparisonItemEvaluation& item) {
     const reports::ConsistencySummary& test = *item.consistency;
     return "the results are not consistent with their uncertainties: chi-square " + test.chi_square.text + " on " +
-           text::count_of(test.degrees_of_freedom, "degree") + " of freedom, p = " + test.p_value.text +
+           text::degrees_of_freedom(std::to_string(test.degrees_of_freedom)) + ", p = " + test.p_value.text +
            ", below alpha = " + text::shortest(test.alpha);
 }
 
@@ -325,13 +326,16 @@ bool is_robust(const gum::ItemResult& item) {
 /// What the test of all results said before some of them were left out.
 std::string subset_remark(const gum::ItemResult& item, const ComparisonItemEvaluation& recorded) {
     const gum::ConsistencyTest& all = *item.consistency_of_all;
-    std::string remark =
-        "All " + std::to_string(item.contributing + item.not_consistent.size()) +
-        " results together are not consistent: chi-square " + gum::round_significant(all.chi_square, 4) + " on " +
-        text::count_of(static_cast<std::int64_t>(all.degrees_of_freedom), "degree") +
-        " of freedom, p = " + printed_probability(all.p_value) + ". The largest consistent subset leaves out ";
+    std::string remark = "All " + std::to_string(item.contributing + item.not_consistent.size()) +
+                         " results together are not consistent: chi-square " +
+                         gum::round_significant(all.chi_square, 4) + " on " +
+                         text::degrees_of_freedom(std::to_string(all.degrees_of_freedom)) +
+                         ", p = " + printed_probability(all.p_value) + ". The largest consistent subset leaves out ";
     remark += text::listed(recorded.not_consistent) +
               ". Being left out says that a result does not fit the others, not that it is wrong.";
+    if (item.contributing == item.not_consistent.size()) {
+        remark += " As many results stand against the value as for it.";
+    }
     if (!recorded.in_another_subset.empty()) {
         const std::string names = text::listed(recorded.in_another_subset);
         remark += item.subset_unique ? " Another subset of the same size, with " + names +
@@ -342,6 +346,27 @@ std::string subset_remark(const gum::ItemResult& item, const ComparisonItemEvalu
         remark += " No result that either of them holds is judged.";
     }
     return remark;
+}
+
+/// That E_n takes another U(X) than the one that is stated with a given value, or computed for the probability of the job.
+/// Of a reference laboratory the result is named with the others.
+void add_remark_on_factor_of_value(const gum::LaboratoryComparison& comparison, std::vector<std::string>& remarks) {
+    const auto is_converted = [](const gum::ItemResult& item) {
+        return item.U_of_scores && item.expanded_by != gum::ExpandedBy::scatter && !item.reference_participant;
+    };
+    const std::string taken = " is not that of about 95 %: En takes U(X) = k u(X) with the factor for " +
+                              in_percent(comparison.score_probability) + " and the degrees of freedom of u(X)";
+    if (any_item(comparison, [&](const gum::ItemResult& item) {
+            return is_converted(item) && item.expanded_by == gum::ExpandedBy::statement;
+        })) {
+        remarks.push_back("The coverage factor of a given assigned value" + taken + " in place of the given U(X).");
+    }
+    if (any_item(comparison, [&](const gum::ItemResult& item) {
+            return is_converted(item) && item.expanded_by != gum::ExpandedBy::statement;
+        })) {
+        remarks.push_back("The coverage factor of a computed assigned value" + taken +
+                          " in place of the U(X) that is printed.");
+    }
 }
 
 /// What U(X) covers, and what U of the results mean in E_n.
@@ -380,6 +405,11 @@ void add_remarks_on_coverage(const Evaluated& evaluated, std::vector<std::string
             "Weights that come from uncertainties with few degrees of freedom are uncertain themselves: U(X) of a "
             "weighted mean then covers less than it claims.");
     }
+    if (any_item(comparison, [](const gum::ItemResult& item) { return item.leaves_out_degrees; })) {
+        remarks.emplace_back(
+            "The trials of a median draw results that correlate from normal distributions, whatever their degrees of "
+            "freedom: U(X) then covers less than it claims.");
+    }
     if (any_item(comparison, [](const gum::ItemResult& item) {
             return item.consistency && item.consistency->test.of_finite_degrees;
         })) {
@@ -393,12 +423,8 @@ void add_remarks_on_coverage(const Evaluated& evaluated, std::vector<std::string
     if (by_default) {
         remarks.emplace_back("The job names no way to the assigned value; the default was taken.");
     }
+    add_remark_on_factor_of_value(comparison, remarks);
     std::vector<std::string> converted;
-    if (any_item(comparison, [](const gum::ItemResult& item) {
-            return item.U_of_scores && item.expanded_by != gum::ExpandedBy::scatter && !item.reference_participant;
-        })) {
-        converted.emplace_back("X");
-    }
     for (const gum::ScoredResult& result : comparison.results) {
         const std::string& id = job.participants[result.participant].id;
         if (result.of_scores && std::find(converted.begin(), converted.end(), id) == converted.end()) {
@@ -408,8 +434,7 @@ void add_remarks_on_coverage(const Evaluated& evaluated, std::vector<std::string
     if (!converted.empty()) {
         remarks.push_back("The coverage factors of " + text::listed(converted, k_most_names_in_remark) +
                           " are not those of about 95 %: En takes U = k u with the factor for " +
-                          in_percent(comparison.score_probability) +
-                          " and the stated degrees of freedom in place of the stated U.");
+                          in_percent(comparison.score_probability) + " and the degrees of freedom of u in place of U.");
         const bool of_budget = std::any_of(
             comparison.results.begin(), comparison.results.end(),
             [](const gum::ScoredResult& result) { return result.of_scores && result.uncertainty->of_scores; });
@@ -446,7 +471,11 @@ void add_remarks_on_value(const Evaluated& evaluated, std::vector<std::string>& 
     add_remarks_on_coverage(evaluated, remarks);
     add_remark_on_statements(evaluated.comparison, remarks);
     if (any_item(comparison,
-                 [](const gum::ItemResult& item) { return is_robust(item) && item.contributing < k_few_for_robust; })) {
+                 // A median by trials rests on no scale.
+                 [](const gum::ItemResult& item) {
+                     return is_robust(item) && item.expanded_by == gum::ExpandedBy::scatter &&
+                            item.contributing < k_few_for_robust;
+                 })) {
         remarks.emplace_back(
             "Fewer than 12 results: the scale of a robust assigned value is rough, and its coverage factor large for "
             "it.");

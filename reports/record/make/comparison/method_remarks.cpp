@@ -130,7 +130,8 @@ private:
             const gum::Agreement& row = result_.summaries[i].agreement;
             if (row.count_above_1 > 0 && row.points > 1) {
                 text += (text.empty() ? "" : "; ") + record_.summary[i].max_abs_En.text + " against a limit of " +
-                        printed_score(row.largest_en_by_chance) + " for " + std::to_string(row.points) + " points" +
+                        printed_score(row.largest_en_by_chance) + " for " +
+                        text::count_of(static_cast<std::int64_t>(row.points), "point") +
                         direction_of(result_.summaries[i]);
             }
         }
@@ -156,10 +157,15 @@ private:
             say("Where both methods have the same expanded uncertainty, all of it could be common to both, and no "
                 "finite En bounds what that would do.");
         }
+        if (whole().for_any_correlation && whole().verdict > gum::AgreementVerdict::correlation_unknown) {
+            say("The verdict holds whatever share of the smaller uncertainty is common to both methods: none, half and "
+                "the whole of it were judged, each with what chance makes.");
+        }
         const std::size_t above = whole().agreement.count_above_1;
         const std::size_t above_for_worst = whole().worst ? whole().worst->count_above_1 : 0;
         if (above_for_worst > above) {
-            const std::string rests = above == 0
+            const bool rests_on_it = whole().verdict == gum::AgreementVerdict::correlation_unknown;
+            const std::string rests = above == 0 && rests_on_it
                                           ? "The agreement rests on the assumption that both methods share nothing: "
                                           : "The number of points above 1 is that of methods that share nothing: ";
             say(rests + "with the worst plausible correlation |En| would be above 1 at " +
@@ -331,9 +337,9 @@ private:
             });
         if (converted > 0) {
             say("At " + std::to_string(converted) + " of " + count_of_points() +
-                " a stated coverage factor is not that of about 95 %: En takes U = k u with the factor for " +
+                " a coverage factor is not that of about 95 %: En takes U = k u with the factor for " +
                 certificate::printed_coverage_probability(result_.score_probability) + " %" +
-                " and the stated degrees of freedom there.");
+                " and the degrees of freedom of u there.");
             if (std::any_of(comparison_.points.begin(), comparison_.points.end(), [](const gum::ComparedPoint& point) {
                     return (point.of_scores && point.of_scores->converted) ||
                            (point.reference_of_scores && point.reference_of_scores->converted);

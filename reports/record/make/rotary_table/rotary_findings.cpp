@@ -10,6 +10,7 @@
 #include "gum/coverage.h"
 #include "gum/rounding.h"
 #include "reports/record/make/remark.h"
+#include "text/degrees_of_freedom.h"
 
 namespace gumcert::reports {
 
@@ -29,8 +30,8 @@ constexpr double k_deviate_of_refuting = 3.09;  // of the normal distribution, f
 constexpr double k_most_left_out = 0.05;        // of all distances: a twentieth is no longer single gross errors
 
 std::string chi_square_of(const AdjustmentSummary& a) {
-    return "chi-square is " + a.chi_square.text + " with " + std::to_string(a.degrees_of_freedom) +
-           " degrees of freedom";
+    return "chi-square is " + a.chi_square.text + " with " +
+           text::degrees_of_freedom(std::to_string(a.degrees_of_freedom));
 }
 
 Remark refuted(const AdjustmentSummary& a) {

@@ -10,6 +10,7 @@
 #include "reports/record/make/record_parts.h"
 #include "reports/record/make/rotary_table/document_units.h"
 #include "reports/record/stated_values.h"
+#include "text/degrees_of_freedom.h"
 
 namespace gumcert::reports {
 
@@ -132,8 +133,8 @@ void fill_monte_carlo(reports::EvaluationRecord& record, const jobs::RotaryTable
         if (component.used && component.estimated &&
             component.degrees_of_freedom <= engine::RotaryTableTrials::k_least_degrees_of_freedom) {
             summary.statement += " The variance of the component \"" + component.name + "\" is estimated with " +
-                                 gum::round_significant(component.degrees_of_freedom, 2) +
-                                 " degrees of freedom, and was not drawn: the trials took its estimate as known.";
+                                 text::degrees_of_freedom(gum::round_significant(component.degrees_of_freedom, 2)) +
+                                 ", and was not drawn: the trials took its estimate as known.";
         }
     }
     if (law_stands > 0) {

@@ -83,6 +83,102 @@ TEST(MethodSummaries, DirectionsInTheOrderOfThePointsAndThenAll) {
     EXPECT_FALSE(result.summaries[2].bias) << "directions of their own have no line in common";
 }
 
+/// 20 points of a method with u = 1 and a reference with u = 0.25 that share a part of the variance of the reference.
+/// \param scatter  of the method, in u: 1 where its u is right
+MethodComparison methods_that_share(std::mt19937& random, double share, double scatter) {
+    constexpr double k_u_reference = 0.25;
+    const auto uniform = [&] { return (static_cast<double>(random()) + 0.5) / 4294967296.0; };
+    const auto normal = [&] {
+        return std::sqrt(-2.0 * std::log(uniform())) * std::cos(2.0 * std::numbers::pi * uniform());
+    };
+    std::vector<double> differences;
+    for (int i = 0; i < 20; ++i) {
+        const double common = share * k_u_reference * k_u_reference;  // what cancels in the difference
+        differences.push_back(std::sqrt(scatter * scatter - common) * normal() +
+                              std::sqrt(k_u_reference * k_u_reference - common) * normal());
+    }
+    MethodComparison comparison = methods_with(differences);
+    for (ComparedPoint& point : comparison.points) {
+        point.reference_u = k_u_reference;
+        point.reference_U = 2.0 * k_u_reference;
+    }
+    comparison.reference_covariance = k_u_reference * k_u_reference * Eigen::MatrixXd::Identity(20, 20);
+    comparison.correlation_unknown = true;
+    return comparison;
+}
+
+/// The law of a verdict without a known correlation: whatever both methods share, right uncertainties are accused as rarely
+/// as those of a known correlation (4.5 %), most of them have a verdict, and wrong ones are validated in 5 % of all
+/// comparisons at most. By |E_n| ≤ 1 for the worst correlation alone two of three right comparisons had none.
+TEST(MethodVerdicts, HoldForAnyCorrelationAsOftenAsTheyPromise) {
+    constexpr int k_runs = 80;
+    for (const double share : {0.0, 0.5, 1.0}) {
+        std::mt19937 random(11U + static_cast<unsigned>(10.0 * share));
+        int accused = 0;
+        int without = 0;
+        int validated_too_small = 0;
+        int validated_too_large = 0;
+        for (int run = 0; run < k_runs; ++run) {
+            const AgreementVerdict right = compare_methods(methods_that_share(random, share, 1.0)).summaries[0].verdict;
+            accused += right == AgreementVerdict::disagreement || right == AgreementVerdict::points_above_1 ? 1 : 0;
+            without += right == AgreementVerdict::correlation_unknown ? 1 : 0;
+            const auto is_validated = [&](double scatter) {
+                return compare_methods(methods_that_share(random, share, scatter)).summaries[0].verdict ==
+                       AgreementVerdict::validated;
+            };
+            validated_too_small += is_validated(2.0) ? 1 : 0;
+            validated_too_large += is_validated(0.5) ? 1 : 0;
+        }
+        // Four standard deviations of a count above what is promised.
+        EXPECT_LE(accused, 0.055 * k_runs + 4.0 * std::sqrt(0.055 * k_runs)) << share;
+        EXPECT_LE(without, 0.15 * k_runs) << share;
+        EXPECT_LE(validated_too_small, 0.05 * k_runs + 4.0 * std::sqrt(0.05 * k_runs)) << share;
+        EXPECT_LE(validated_too_large, 0.05 * k_runs + 4.0 * std::sqrt(0.05 * k_runs)) << share;
+    }
+}
+
+/// No correlation between none and the worst one objects to a verdict that is given for any.
+TEST(MethodVerdicts, ForAnyCorrelationAreThoseOfEachCorrelation) {
+    std::mt19937 random(5);
+    int given = 0;
+    for (int run = 0; run < 40; ++run) {
+        MethodComparison comparison = methods_that_share(random, 0.1 * (run % 11), 1.0);
+        const MethodSummary row = compare_methods(comparison).summaries[0];
+        EXPECT_TRUE(row.for_any_correlation);
+        if (row.verdict <= AgreementVerdict::correlation_unknown) {
+            continue;
+        }
+        ++given;
+        comparison.correlation_unknown = false;
+        for (int tenth = 0; tenth <= 10; ++tenth) {
+            comparison.cross_covariance = 0.1 * tenth * comparison.reference_covariance;
+            const AgreementVerdict known = compare_methods(comparison).summaries[0].verdict;
+            EXPECT_GT(known, AgreementVerdict::correlation_unknown) << run << ", " << tenth;
+            EXPECT_GE(known, row.verdict) << run << ", " << tenth;
+        }
+    }
+    EXPECT_GT(given, 30);
+}
+
+/// What points share with each other may be common to both sides in any way: then each |E_n| counts by itself, as where ν
+/// is finite or nothing is left of the uncertainty.
+TEST(MethodVerdicts, ForAnyCorrelationNeedPointsOfTheirOwn) {
+    std::mt19937 random(5);
+    MethodComparison comparison = methods_that_share(random, 0.0, 1.0);
+    MethodComparison shared = comparison;
+    shared.covariance(0, 1) = shared.covariance(1, 0) = 0.1;
+    MethodComparison finite = comparison;
+    finite.points[3].nu = 9.0;
+    MethodComparison equal = comparison;
+    equal.points[3].reference_u = 1.0;
+    equal.points[3].reference_U = 2.0;
+    equal.reference_covariance(3, 3) = 1.0;
+    EXPECT_TRUE(compare_methods(comparison).summaries[0].for_any_correlation);
+    for (const MethodComparison* one : {&shared, &finite, &equal}) {
+        EXPECT_FALSE(compare_methods(*one).summaries[0].for_any_correlation);
+    }
+}
+
 /// Right uncertainties in directions of a few points, and a shift of the first of them.
 MethodComparison right_in_directions(std::mt19937& random, std::size_t directions, std::size_t points, double shift) {
     // Polar method: std::normal_distribution is not the same in every library.

@@ -102,6 +102,31 @@ TEST(ComparisonCsv, ColumnsThatNoRowHasAreLeftOut) {
                            "zeta\nx,0,um,"));
 }
 
+/// "comparison.csv and record.json hold all": also which scores give a signal, and what has no result.
+TEST(ComparisonCsv, SaysWhichScoresGiveASignalAndWhichItemsHaveNoResult) {
+    EvaluationRecord record = test::sample_laboratories_record();
+    record.comparison->points.front().signal_by = {"En", "z_prime"};
+    record.comparison->items_without_result = {{.id = "block, 50 mm",
+                                                .name = "",
+                                                .round = "",
+                                                .code = "GC-GUM-0134",
+                                                .what = "no two of the 3 results are consistent with each other",
+                                                .rule = "",
+                                                .action = ""}};
+    const auto rows = parse(comparison_csv(record));
+    ASSERT_EQ(rows.size(), record.comparison->points.size() + 2);
+    EXPECT_EQ(row_of(rows, 1).at("signal_by"), "En z_prime");
+    EXPECT_EQ(row_of(rows, 1).at("no_result_because"), "");
+    auto last = row_of(rows, rows.size() - 1);
+    EXPECT_EQ(last.at("item"), "block, 50 mm");
+    EXPECT_EQ(last.at("no_result_because"), "no two of the 3 results are consistent with each other [GC-GUM-0134]");
+    last.erase("item");
+    last.erase("no_result_because");
+    for (const auto& [head, cell] : last) {
+        EXPECT_EQ(cell, "") << head;
+    }
+}
+
 TEST(ComparisonCsv, NoTextBecomesAFormula) {
     EvaluationRecord r = test::sample_laboratories_record();
     std::vector<ComparisonPoint>& p = r.comparison->points;

@@ -163,9 +163,32 @@ TEST(ComparisonReport, FirstPageNamesTheAssignedValueWhoseFactorIsNotTaken) {
     item.U_of_scores = {};
     EXPECT_THAT(answer_of(record), Not(HasSubstr("in place of their U")));
     item.U_of_scores = {0.13, "0.13"};
-    EXPECT_THAT(answer_of(record), HasSubstr("The coverage factors of X are those of another"));
+    EXPECT_THAT(answer_of(record), HasSubstr("The coverage factor of the assigned value is that of another"));
+    EXPECT_THAT(answer_of(record), Not(HasSubstr("factors of X")));
     item.U_rests_on = "scatter";
     EXPECT_THAT(answer_of(record), Not(HasSubstr("in place of their U")));
+}
+
+/// U is read with ν wherever it is finite, whatever the value rests on.
+TEST(ComparisonReport, DegreesOfFreedomStandBesideTheFactorOfAnAssignedValue) {
+    EvaluationRecord record = one_item(6);
+    ComparisonItemEvaluation& item = record.comparison->items[0];
+    item.k = {2.2, "2.20"};
+    for (const std::string rests_on : {"scatter", "uncertainties", "statement"}) {
+        item.U_rests_on = rests_on;
+        item.nu = {11.4, "11.4"};
+        EXPECT_THAT(answer_of(record), HasSubstr("k = 2.20, ν = 11.4")) << rests_on;
+        item.nu = {};
+        EXPECT_THAT(answer_of(record), Not(HasSubstr("ν = 11.4"))) << rests_on;
+    }
+}
+
+TEST(ComparisonReport, FirstPageSaysWhatIsStatedOfTheArtefact) {
+    EvaluationRecord record = one_item(6);
+    record.comparison->artefact_stability = "drift below 5 nm in two years, in u(X)";
+    for (const std::string& language : k_languages) {
+        EXPECT_THAT(text_of(record, language), HasSubstr("drift below 5 nm in two years, in u(X)")) << language;
+    }
 }
 
 TEST(ComparisonReport, FirstPageSaysHowTheAssignedValueWasFoundAndWhoReportedNothing) {
@@ -641,9 +664,9 @@ TEST(ComparisonReport, ScoresDecideTheWords) {
     EXPECT_THAT(first(), HasSubstr(": L002."));
     c.items[0].score = "z_prime";
     c.points[2].signal = "warning";
-    EXPECT_THAT(first(), HasSubstr("1 of 5 scored results call for action (|z′| ≥ 3): L002. Warnings (|z′| > 2): 1."));
+    EXPECT_THAT(first(), HasSubstr("1 of 5 scored results calls for action (|z′| ≥ 3): L002. Warnings (|z′| > 2): 1."));
     c.points[1].signal = "none";
-    EXPECT_THAT(first(), HasSubstr("1 give a warning (|z′| > 2): L003."));
+    EXPECT_THAT(first(), HasSubstr("1 gives a warning (|z′| > 2): L003."));
     c.items[0].score = "D";
     c.points[2].signal = "action";
     EXPECT_THAT(first(), HasSubstr("largest error allowed"));

@@ -1,6 +1,7 @@
 #include "gum/quantity/diagnostic.h"
 #include "reports/forms/asset_files.h"
 #include "reports/forms/render.h"
+#include "reports/forms_of_number.h"
 #include "reports/printable_text.h"
 #include "reports/view/certificate_builder.h"
 #include "reports/view/certificate_view.h"
@@ -57,8 +58,10 @@ std::map<std::string, std::string> texts_of(const json& object, const std::strin
     return all;
 }
 
-std::set<std::string> placeholders(const std::string& text) {
+/// Of the plural: a language may say "the only one" where another has the number 1.
+std::set<std::string> placeholders(const std::string& pattern) {
     static const std::regex k_placeholder(R"(\{[^}]*\})");
+    const std::string text = with_forms_of(pattern, [](const std::string&) { return false; });
     return {std::sregex_token_iterator(text.begin(), text.end(), k_placeholder), {}};
 }
 

@@ -931,6 +931,27 @@ TEST(WhatScoresSay, CoverageFactorsAreBroughtToOne) {
     EXPECT_EQ(evaluated(half).score_probability, 0.9545);
 }
 
+/// A remark names an assigned value as what it is: given with its U, or computed. "X" may be a laboratory.
+TEST(WhatScoresSay, FactorsOfAssignedValuesAreThoseOfNoLaboratory) {
+    const auto remarks_for = [](const std::optional<gum::AssignedValueRequest>& request, double p) {
+        ComparisonJob job = job_of({10.24, 10.0, 10.1}, {0.1, 0.1, 0.1});
+        job.participants[0].id = "X";
+        job.coverage_probability = p;
+        if (request) {
+            job.items[0].assigned_value = *request;
+        }
+        return evaluated(job).remarks;
+    };
+    const auto says = [](const std::string& text) { return testing::Contains(HasSubstr(text)); };
+    EXPECT_THAT(remarks_for(given(10.0, u_and_k(0.05, 1.0)), 0.9545),
+                testing::AllOf(says("factor of a given assigned value"), testing::Not(says("factors of X")),
+                               testing::Not(says("computed assigned value"))));
+    EXPECT_THAT(remarks_for(std::nullopt, 0.99),
+                testing::AllOf(says("factor of a computed assigned value"), testing::Not(says("factors of X")),
+                               testing::Not(says("stated U")), testing::Not(says("given U(X)"))));
+    EXPECT_THAT(remarks_for(std::nullopt, 0.9545), testing::Not(says("assigned value is not that of about 95 %")));
+}
+
 TEST(WhatScoresSay, ASignalOfAnyScoreIsTheSignal) {
     // z is small, and the laboratory claims more than it can: E_n = 0.3/√(0.1² + 0.02²).
     ComparisonJob job = job_of({10.3, 10.0, 10.05}, {0.05, 0.05, 0.05});
@@ -992,6 +1013,28 @@ TEST(WhatScoresSay, IntervalsOfTrialsAreKept) {
     }
 }
 
+/// Of results with few degrees of freedom trials draw t distributions: U(X) of a median is that of its interval.
+TEST(WhatScoresSay, TrialsOfAMedianKnowDegreesOfFreedom) {
+    ComparisonJob job = job_of({10.0, 10.1, 9.9, 10.05, 9.95}, std::vector<double>(5, 0.1));
+    job.items[0].assigned_value.method = AssignedValueMethod::median;
+    job.items[0].assigned_value.median_by_trials = true;
+    const reports::ComparisonItemEvaluation normal = evaluated(job).items[0];
+    for (ComparisonResult& result : job.results) {
+        result.uncertainty->degrees_of_freedom = 3.0;
+    }
+    const reports::ComparisonItemEvaluation item = evaluated(job).items[0];
+    EXPECT_EQ(*item.u.number, *normal.u.number) << "u is that of the stated u";
+    EXPECT_THAT(evaluated(job).remarks, testing::Not(testing::Contains(HasSubstr("scale of a robust"))))
+        << "it has none";
+    EXPECT_EQ(item.value.number, normal.value.number);
+    EXPECT_FALSE(normal.nu.number);
+    EXPECT_GT(*item.k.number, 2.1);
+    EXPECT_NEAR(*item.k.number, gum::coverage_factor(0.9545, *item.nu.number), 1e-6);
+    EXPECT_NEAR(*item.U.number, 0.5 * (*item.high.number - *item.low.number), 0.03 * *item.U.number);
+    job.correlations = {{0, 1, 0.3}};
+    EXPECT_THAT(evaluated(job).remarks, testing::Contains(HasSubstr("whatever their degrees of freedom")));
+}
+
 TEST(WhatScoresSay, OneItemWithoutItsReferenceDoesNotLoseTheOthers) {
     ComparisonJob job = job_of({1.0, 1.1, 0.9}, {0.1, 0.1, 0.1});
     job.items.push_back(item_in("alone", "mm"));
@@ -1022,6 +1065,37 @@ TEST(WhatScoresSay, OneItemDoesNotLoseTheOthers) {
     EXPECT_EQ(comparison.items_without_result[0].code, "GC-GUM-0102");
     ASSERT_EQ(notes.size(), 1U);
     EXPECT_THAT(notes[0].where, HasSubstr("item \"equal\""));
+}
+
+/// A subset of fewer than half of the results is no value of theirs.
+TEST(WhatScoresSay, MoreResultsAgainstASubsetThanForItLeaveNoValue) {
+    // The first three agree; the others lie apart from these and from each other.
+    const std::vector<double> x = {10.0, 10.05, 9.95, 11.0, 12.0, 13.0, 14.0, 15.0};
+    for (std::size_t n = 4; n <= x.size(); ++n) {
+        ComparisonJob job =
+            job_of({x.begin(), x.begin() + static_cast<std::ptrdiff_t>(n)}, std::vector<double>(n, 0.1));
+        job.items[0].assigned_value.method = AssignedValueMethod::largest_consistent_subset;
+        if (n <= 6) {  // three of six are half of them
+            const reports::Comparison comparison = evaluated(job);
+            EXPECT_EQ(comparison.items[0].contributing, 3) << n;
+            const auto said = testing::Contains(HasSubstr("As many results stand against the value as for it."));
+            if (n == 6) {
+                EXPECT_THAT(comparison.remarks, said);
+            } else {
+                EXPECT_THAT(comparison.remarks, testing::Not(said)) << n;
+            }
+            continue;
+        }
+        job.items.push_back(item_in("other", "mm"));
+        for (std::size_t p = 0; p < n; ++p) {
+            add_result(job, p, 10.0 + 0.01 * static_cast<double>(p), u_and_k(0.1), 1);
+        }
+        const reports::Comparison comparison = evaluated(job);
+        ASSERT_EQ(comparison.items_without_result.size(), 1U) << n;
+        EXPECT_EQ(comparison.items_without_result[0].code, "GC-COMPARE-0114");
+        EXPECT_EQ(comparison.items_without_result[0].what,
+                  "the largest consistent subset holds 3 of " + std::to_string(n) + " results");
+    }
 }
 
 TEST(WhatScoresSay, NamesOfSourcesThatLookAlikeAreAskedAbout) {
