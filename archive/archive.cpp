@@ -87,19 +87,30 @@ void require_whole(const LogEntry& entry) {
     }
 }
 
+/// Digits of a time, as a number.
+int part_of_time(std::string_view at, std::size_t from, std::size_t length) {
+    int value = 0;
+    for (const char c : at.substr(std::min(from, at.size()), length)) {
+        value = c >= '0' && c <= '9' ? 10 * value + (c - '0') : value;
+    }
+    return value;
+}
+
 /// "2026-11-24…" as days since 1970-01-01.
 std::int64_t day_number(std::string_view at) {
-    const auto part = [&](std::size_t from, std::size_t length) {
-        int value = 0;
-        for (const char c : at.substr(std::min(from, at.size()), length)) {
-            value = c >= '0' && c <= '9' ? 10 * value + (c - '0') : value;
-        }
-        return value;
-    };
-    const std::chrono::year_month_day day{std::chrono::year(part(0, 4)),
-                                          std::chrono::month(static_cast<unsigned>(part(5, 2))),
-                                          std::chrono::day(static_cast<unsigned>(part(8, 2)))};
+    const std::chrono::year_month_day day{std::chrono::year(part_of_time(at, 0, 4)),
+                                          std::chrono::month(static_cast<unsigned>(part_of_time(at, 5, 2))),
+                                          std::chrono::day(static_cast<unsigned>(part_of_time(at, 8, 2)))};
     return std::chrono::sys_days(day).time_since_epoch().count();
+}
+
+/// "2026-11-24T18:52:07Z" as seconds since 1970-01-01.
+std::int64_t second_number(std::string_view at) {
+    constexpr std::int64_t k_minutes_of_hour = 60;
+    constexpr std::int64_t k_seconds_of_minute = 60;
+    constexpr std::int64_t k_hours_of_day = 24;
+    const std::int64_t hours = day_number(at) * k_hours_of_day + part_of_time(at, 11, 2);
+    return (hours * k_minutes_of_hour + part_of_time(at, 14, 2)) * k_seconds_of_minute + part_of_time(at, 17, 2);
 }
 
 /// A machine whose clock is years ahead would close the archive until then. Nobody can tell a long pause from a wrong
@@ -164,10 +175,11 @@ json changed_state(const std::string& before, const std::string& after, const st
     return {{"old", {{"state", before}}}, {"new", {{"state", after}}}, {"why", why}};
 }
 
-/// Small steps back of a clock that is set right by a server do not stop a laboratory: the time of the last entry counts.
+/// Small steps back of a clock that is set right by a server, or of another machine that writes, do not stop a laboratory: the
+/// time of the last entry counts.
 std::string not_before(const std::string& last, std::string at) {
-    constexpr std::size_t k_to_the_minute = 16;  // "2026-11-24T18:52"
-    return at < last && at.substr(0, k_to_the_minute) == last.substr(0, k_to_the_minute) ? last : std::move(at);
+    constexpr std::int64_t k_small = 60;  // [s]
+    return at < last && second_number(last) - second_number(at) < k_small ? last : std::move(at);
 }
 
 void require_numbering(const Settings& settings) {

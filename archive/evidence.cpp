@@ -165,6 +165,11 @@ public:
         for (const Evidence::ProvenEntry& proven : evidence_.entries) {
             look_at(proven);
         }
+        for (const Head::Extension& one : evidence_.printed_heads) {
+            if (leads_to_the_head(one)) {
+                proven_heads_.emplace(one.size, one.root);
+            }
+        }
         look_at_contents();
         const CertificateLife* const life = rules_.life(evidence_.certificate);
         if (life == nullptr || life->record.empty()) {
@@ -198,8 +203,10 @@ private:
     LogRules rules_;
     std::int64_t last_ = 0;  // entry that stands where it may
     std::set<std::string> keys_;
-    std::map<std::string, const LogEntry*> needed_;  // content → entry that names it first
-    std::map<std::string, std::int64_t> drafts_;     // record → its first draft
+    std::map<std::string, const LogEntry*> needed_;                // content → entry that names it first
+    std::map<std::string, std::int64_t> drafts_;                   // record → its first draft
+    std::set<std::pair<std::int64_t, std::string>> proven_heads_;  // printed ones that lead to the head
+    std::set<std::pair<std::string, std::string>> told_of_;        // names and SHA-256 of the parts of the verdict
 
     void add(const char* code, std::string where, std::string what, std::string rule) {
         verdict_.findings.push_back({.code = code,
@@ -231,11 +238,7 @@ private:
             return;
         }
         const auto proves = [&](const Head& later, const Head& earlier) {
-            const bool is_printed =
-                &later == &own &&
-                std::any_of(evidence_.printed_heads.begin(), evidence_.printed_heads.end(), [&](const auto& one) {
-                    return one.size == earlier.size && one.root == earlier.root && leads_to_the_head(one);
-                });
+            const bool is_printed = &later == &own && proven_heads_.contains({earlier.size, earlier.root});
             return is_printed || proves_extension(later, earlier);
         };
         const bool is_extended_here =
@@ -309,8 +312,7 @@ private:
     }
 
     void tell_of(const std::string& name, const std::string& sha256) {
-        if (std::none_of(verdict_.parts.begin(), verdict_.parts.end(),
-                         [&](const auto& part) { return part.name == name && part.sha256 == sha256; })) {
+        if (told_of_.emplace(name, sha256).second) {
             verdict_.parts.push_back({name, sha256, false});
         }
     }
@@ -330,10 +332,7 @@ private:
     /// A head that a document prints is one that the head of the evidence extends.
     void look_at_printed_heads(const Content& content, const LogEntry& naming) {
         for (const PrintedHead& printed : printed_heads_in(content.bytes)) {
-            const bool is_of_log = std::any_of(
-                evidence_.printed_heads.begin(), evidence_.printed_heads.end(), [&](const Head::Extension& one) {
-                    return one.size == printed.size && one.root == printed.root && leads_to_the_head(one);
-                });
+            const bool is_of_log = proven_heads_.contains({printed.size, printed.root});
             if (std::string fault = fault_of(printed, is_of_log, drafts_.at(naming.record), naming.seq);
                 !fault.empty()) {
                 add("GC-ARCHIVE-0053", "content " + content.sha256, std::move(fault),

@@ -1,8 +1,9 @@
 #include "archive/printed_head.h"
 
-#include <algorithm>
 #include <charconv>
 #include <optional>
+#include <set>
+#include <utility>
 
 #include "encoding/sha2.h"
 
@@ -50,9 +51,10 @@ std::string short_form(const Head& head) {
 
 std::vector<PrintedHead> printed_heads_in(std::string_view document) {
     std::vector<PrintedHead> heads;
+    std::set<std::pair<std::int64_t, std::string>> known;
     for (std::size_t at = document.find(k_mark); at != std::string_view::npos; at = document.find(k_mark, at + 1)) {
         const std::optional<PrintedHead> head = head_at(document.substr(at + k_mark.size()));
-        if (head && std::find(heads.begin(), heads.end(), *head) == heads.end()) {
+        if (head && known.emplace(head->size, head->root).second) {
             heads.push_back(*head);
         }
     }

@@ -83,7 +83,9 @@ std::vector<Limit> limits() {
     constexpr std::string_view k_signed = "documents whose signatures are checked";
     constexpr std::string_view k_page = "the process that sets pages of a PDF";
     constexpr std::string_view k_foreign =
-        "verify, import, check dcc, and audit of files of others, for every 10 MB of a file";
+        "verify, import, check dcc, archive verify FILE, archive add and amend but for the evaluation, and audit of "
+        "files of "
+        "others, for every 10 MB of a file";
     return {
         {k_job, "a file", jobs::k_file_limit, k_byte},
         {k_job, "logo or symbol", jobs::k_largest_picture, k_byte},

@@ -7,6 +7,9 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <condition_variable>
+#include <mutex>
+#include <optional>
 #include <system_error>
 #include <thread>
 #include <utility>
@@ -19,26 +22,37 @@ using Clock = std::chrono::steady_clock;
 
 /// What a process may write to in its memory. Reserved and never touched memory counts here, therefore it is wide. A
 /// sanitizer reserves terabytes for its notes: no wall there.
-void wall_in([[maybe_unused]] std::uint64_t memory) {
+/// \return the wall that there was
+rlimit wall_in([[maybe_unused]] std::uint64_t memory) {
+    rlimit before{.rlim_cur = RLIM_INFINITY, .rlim_max = RLIM_INFINITY};
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
     constexpr std::uint64_t k_for_threads = std::uint64_t{256} << 20U;
-    rlimit wall{};
-    if (::getrlimit(RLIMIT_DATA, &wall) == 0) {
+    if (::getrlimit(RLIMIT_DATA, &before) == 0) {
+        rlimit wall = before;
         wall.rlim_cur = std::min<rlim_t>(wall.rlim_cur, 2 * memory + k_for_threads);
         (void)::setrlimit(RLIMIT_DATA, &wall);
     }
 #endif
+    return before;
+}
+
+constexpr std::chrono::milliseconds k_look_again{10};
+
+/// \return the ceiling that is reached
+std::optional<Ceiling> reached(const Ceilings& ceilings, Clock::time_point begin) {
+    if (ceilings.time.count() > 0 && Clock::now() - begin >= ceilings.time) {
+        return Ceiling::time;
+    }
+    if (ceilings.memory > 0 && resident_memory() > ceilings.memory) {
+        return Ceiling::memory;
+    }
+    return std::nullopt;
 }
 
 void watch(const Ceilings& ceilings, Clock::time_point begin, const std::function<void(Ceiling)>& end) {
-    constexpr std::chrono::milliseconds k_look_again{10};
     for (;;) {
-        if (ceilings.time.count() > 0 && Clock::now() - begin >= ceilings.time) {
-            end(Ceiling::time);
-            return;
-        }
-        if (ceilings.memory > 0 && resident_memory() > ceilings.memory) {
-            end(Ceiling::memory);
+        if (const std::optional<Ceiling> which = reached(ceilings, begin)) {
+            end(*which);
             return;
         }
         std::this_thread::sleep_for(k_look_again);
@@ -70,10 +84,56 @@ std::uint64_t resident_memory() {
 
 void watch_ceilings(const Ceilings& ceilings, std::function<void(Ceiling)> end) {
     if (ceilings.memory > 0) {
-        wall_in(ceilings.memory);
+        (void)wall_in(ceilings.memory);
     }
     if (ceilings.memory > 0 || ceilings.time.count() > 0) {
         std::thread(watch, ceilings, Clock::now(), std::move(end)).detach();
+    }
+}
+
+struct CeilingsOfWork::Watch {
+    std::mutex mutex;
+    std::condition_variable is_done_or_time;
+    bool is_done = false;
+    rlimit wall_before{};
+    bool has_wall = false;
+    std::thread thread;  // the last member: it uses the others
+};
+
+CeilingsOfWork::CeilingsOfWork(Ceilings ceilings, std::function<void(Ceiling)> end) {
+    if (ceilings.memory == 0 && ceilings.time.count() == 0) {
+        return;
+    }
+    watch_ = std::make_unique<Watch>();
+    if (ceilings.memory > 0) {
+        ceilings.memory += resident_memory();
+        watch_->wall_before = wall_in(ceilings.memory);
+        watch_->has_wall = true;
+    }
+    watch_->thread = std::thread([watch = watch_.get(), ceilings, begin = Clock::now(), end = std::move(end)] {
+        std::unique_lock lock(watch->mutex);
+        while (!watch->is_done) {
+            if (const std::optional<Ceiling> which = reached(ceilings, begin)) {
+                end(*which);
+                return;
+            }
+            watch->is_done_or_time.wait_for(lock, k_look_again);
+        }
+    });
+}
+
+CeilingsOfWork::~CeilingsOfWork() {
+    if (!watch_) {
+        return;
+    }
+    {
+        const std::lock_guard lock(watch_->mutex);
+        watch_->is_done = true;
+    }
+    watch_->is_done_or_time.notify_all();
+    watch_->thread.join();
+    if (watch_->has_wall) {
+        (void)::setrlimit(RLIMIT_DATA, &watch_->wall_before);
     }
 }
 

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <memory>
 
 namespace gumcert::system {
 
@@ -20,5 +21,20 @@ enum class Ceiling { memory, time };
 /// Behind it stands a wall of the system: twice the memory cannot be had, and std::bad_alloc says so.
 /// \param end  called once, in that thread, when a ceiling is reached; does not return
 void watch_ceilings(const Ceilings& ceilings, std::function<void(Ceiling)> end);
+
+/// The same for some work: the watch, and the wall of the system, end with this. What is in memory when it begins does not
+/// count.
+class CeilingsOfWork {
+public:
+    /// \param end  as of watch_ceilings()
+    CeilingsOfWork(Ceilings ceilings, std::function<void(Ceiling)> end);
+    ~CeilingsOfWork();
+    CeilingsOfWork(const CeilingsOfWork&) = delete;
+    CeilingsOfWork& operator=(const CeilingsOfWork&) = delete;
+
+private:
+    struct Watch;
+    std::unique_ptr<Watch> watch_;  ///< none where there is no ceiling
+};
 
 }  // namespace gumcert::system

@@ -72,6 +72,11 @@ CommonOptions with_walls_of_command(const Arguments& a) {
         });
         return evaluates ? a.common : with_walls(a.common, files);
     }
+    if (a.command == "archive" && a.archive.action == "verify" && !a.archive.named.empty()) {  // of a customer
+        std::vector<std::filesystem::path> files(a.archive.named.begin(), a.archive.named.end());
+        files.insert(files.end(), a.archive.heads.begin(), a.archive.heads.end());
+        return with_walls(a.common, files);
+    }
     return a.command == "verify" || reads_certificates ? with_walls(a.common, {a.files.begin(), a.files.end()})
                                                        : a.common;
 }

@@ -12,8 +12,8 @@
 #include <utility>
 
 #include "archive/certificates/archive_files.h"
+#include "archive/certificates/texts_of_records.h"
 #include "evaluation/recompute_record.h"
-#include "gum/expression/name_spelling.h"
 #include "gum/monte_carlo/worker_threads.h"
 #include "jobs/file_source.h"
 #include "json/canonical_json.h"
@@ -111,57 +111,6 @@ private:
                 found_[done_++].references = std::move(one);
             }
         }
-    }
-};
-
-/// Which records say which text: every text is looked at once for each name, however many records say it.
-class TextsOfRecords {
-public:
-    explicit TextsOfRecords(const std::vector<SearchedRecord>& records) {
-        for (std::size_t i = 0; i < records.size(); ++i) {
-            if (records[i].references) {
-                for (const StandardReference& one : records[i].references->references) {
-                    records_[one.text].push_back(i);
-                }
-            }
-        }
-    }
-    /// Texts that name nothing else than `name` but for their spelling: "std-017", "STD\u2011017, certificate 12".
-    [[nodiscard]] std::set<std::string> that_may_mean(const std::string& name) const {
-        std::set<std::string> found;
-        const std::string wanted = gum::without_spelling(name);
-        for (const auto& [text, records] : records_) {
-            if (!wanted.empty() && !names(text, name) && contains_name(gum::without_spelling(text), wanted)) {
-                found.insert(text);
-            }
-        }
-        return found;
-    }
-    [[nodiscard]] std::set<std::size_t> that_name(const std::string& name) const {
-        std::set<std::size_t> found;
-        for (const auto& [text, records] : records_) {
-            if (names(text, name)) {
-                found.insert(records.begin(), records.end());
-            }
-        }
-        return found;
-    }
-
-private:
-    std::map<std::string, std::vector<std::size_t>> records_;
-
-    /// Without spelling there are no blanks between words; but "std171" is another standard than "std17".
-    static bool contains_name(std::string_view text, std::string_view name) {
-        const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
-        for (std::size_t at = text.find(name); at != std::string_view::npos; at = text.find(name, at + 1)) {
-            const std::size_t end = at + name.size();
-            const bool goes_on = end < text.size() && is_digit(text[end]) && is_digit(name.back());
-            const bool began_before = at > 0 && is_digit(text[at - 1]) && is_digit(name.front());
-            if (!goes_on && !began_before) {
-                return true;
-            }
-        }
-        return false;
     }
 };
 
@@ -544,9 +493,10 @@ void name_drafts(std::vector<AffectedCertificate>& affected) {
 }
 
 std::string period_of(const AffectedCertificate& one) {
-    return one.used_from.empty() && one.used_to.empty() ? "unknown"
-           : one.used_from == one.used_to               ? one.used_to
-                                                        : one.used_from + "/" + one.used_to;
+    return one.used_to.empty()            ? "unknown"
+           : one.used_from.empty()        ? "until " + one.used_to
+           : one.used_from == one.used_to ? one.used_to
+                                          : one.used_from + "/" + one.used_to;
 }
 
 std::string through_text(const AffectedCertificate& one) {
@@ -566,7 +516,12 @@ std::vector<AffectedCertificate> find_affected(Archive& archive, const WrongStan
                                                const gum::Progress& progress, std::vector<gum::Diagnostic>* remarks) {
     RecordSearch search(threads, progress);
     const std::vector<SearchedRecord> records = search.read(archive);
-    const TextsOfRecords texts(records);
+    TextsOfRecords texts;
+    for (std::size_t i = 0; i < records.size(); ++i) {
+        if (records[i].references) {
+            texts.add(i, *records[i].references);
+        }
+    }
     std::vector<AffectedCertificate> affected;
     std::set<std::size_t> known;
     struct Wanted {

@@ -585,8 +585,19 @@ CheckedDraft checked_draft(const fs::path& record_file, const std::vector<fs::pa
                            const ArchiveChecks& checks) {
     CheckedDraft checked;
     const std::string name = record_file.string();
-    checked.draft.record = evaluation::read_file(record_file);
-    checked.record = reports::record_from_json(checked.draft.record, name);
+    std::vector<fs::path> files = documents;
+    files.push_back(record_file);
+    const auto within_walls = [&](const std::function<void()>& work) {
+        if (checks.within_walls) {
+            checks.within_walls(files, work);
+        } else {
+            work();
+        }
+    };
+    within_walls([&] {
+        checked.draft.record = evaluation::read_file(record_file);
+        checked.record = reports::record_from_json(checked.draft.record, name);
+    });
     const certificate::CertificateData data = stated_identity(checked.record);
     if (data.number.empty()) {
         const bool compares = checked.record.kind == "comparison";
@@ -613,16 +624,18 @@ CheckedDraft checked_draft(const fs::path& record_file, const std::vector<fs::pa
         checked.draft.item += (checked.draft.item.empty() ? "" : "; ") + worded(item->description, data);
         checked.draft.item += item->serial_number.empty() ? "" : ", " + item->serial_number;
     }
-    CheckFindings findings;
-    DocumentsOfRecord::require_as_written(record_file, checked.draft.record, findings);
-    DocumentsOfRecord of_record(checked.record, checks);
-    for (const fs::path& document : documents) {
-        if (checks.progress) {
-            checks.progress("checking " + document.filename().string());
+    within_walls([&] {
+        CheckFindings findings;
+        DocumentsOfRecord::require_as_written(record_file, checked.draft.record, findings);
+        DocumentsOfRecord of_record(checked.record, checks);
+        for (const fs::path& document : documents) {
+            if (checks.progress) {
+                checks.progress("checking " + document.filename().string());
+            }
+            checked.draft.documents.push_back(of_record.checked(document, findings));
         }
-        checked.draft.documents.push_back(of_record.checked(document, findings));
-    }
-    checked.remarks = std::move(findings).remarks();
+        checked.remarks = std::move(findings).remarks();
+    });
     return checked;
 }
 

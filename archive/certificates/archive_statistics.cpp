@@ -1,9 +1,12 @@
 #include "archive/certificates/archive_statistics.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 #include <string>
 #include <tuple>
@@ -23,16 +26,73 @@ namespace {
 
 using nlohmann::json;
 
-/// The smallest standard deviation of n readings that one in control exceeds with probability 1 − 0.99865, as beyond
-/// three standard deviations of a normal distribution: σ √(χ²/ν).
-double control_limit(double sigma, std::int64_t nu) {
-    constexpr double k_beyond = 0.00135;
-    gum::Distribution half_chi_squared;
-    half_chi_squared.kind = gum::DistributionKind::gamma;
-    half_chi_squared.scale = 1.0;
-    half_chi_squared.shape = 0.5 * static_cast<double>(nu);
-    return sigma * std::sqrt(2.0 * gum::upper_quantile(half_chi_squared, k_beyond) / static_cast<double>(nu));
+constexpr double k_beyond = 0.00135;  // as beyond three standard deviations of a normal distribution, on one side
+
+/// The x that Snedecor's F with ν₁ and ν₂ degrees of freedom exceeds with probability k_beyond: ν₂/ν₁ (1 − y)/y, where y is
+/// the quantile of the beta distribution with ν₂/2 and ν₁/2.
+double upper_limit_of_F(std::int64_t nu_1, std::int64_t nu_2) {
+    gum::Distribution beta;
+    beta.kind = gum::DistributionKind::beta;
+    beta.scale = 1.0;
+    beta.shape = 0.5 * static_cast<double>(nu_2);
+    beta.second_shape = 0.5 * static_cast<double>(nu_1);
+    const double y = gum::quantile(beta, k_beyond);
+    return static_cast<double>(nu_2) / static_cast<double>(nu_1) * ((1.0 - y) / y);
 }
+
+/// Whether readings are all equal, or differ by one step of their last digit: then their scatter is that of the display.
+/// \param observations  as they are written: "213.43"
+bool differ_by_one_step(const json& observations) {
+    std::vector<std::string> texts;
+    std::vector<double> values;
+    for (const json& one : observations) {
+        const std::string text = one.is_string() ? one.get<std::string>() : std::string();
+        double value = 0.0;
+        if (std::from_chars(text.data(), text.data() + text.size(), value).ec != std::errc()) {
+            return false;
+        }
+        texts.push_back(text);
+        values.push_back(value);
+    }
+    if (values.empty()) {
+        return false;
+    }
+    const auto [least, most] = std::minmax_element(values.begin(), values.end());
+    constexpr double k_more_than_one = 1.5;
+    return *most - *least < k_more_than_one * std::pow(10.0, -text::most_decimals(texts));
+}
+
+/// What some sets of readings say of their common standard deviation.
+struct PooledScatter {
+    double squares = 0.0;  ///< Σ ν s²
+    std::int64_t nu = 0;   ///< Σ ν
+
+    void add(const ArchivedScatter& one) {
+        squares += static_cast<double>(one.n - 1) * one.standard_deviation * one.standard_deviation;
+        nu += one.n - 1;
+    }
+    [[nodiscard]] double standard_deviation() const { return std::sqrt(squares / static_cast<double>(nu)); }
+};
+
+/// In control the standard deviation of n readings is above its limit with probability k_beyond.
+class LimitsOfScatter {
+public:
+    /// \param others  with which it is compared; where all their readings are equal, by their resolution, they say nothing of how
+    ///                readings scatter, and there is no limit
+    [[nodiscard]] std::optional<double> of(const PooledScatter& others, std::int64_t n) {
+        if (!(others.squares > 0.0)) {
+            return std::nullopt;
+        }
+        const auto [known, is_new] = factors_.try_emplace({n, others.nu});
+        if (is_new) {
+            known->second = std::sqrt(upper_limit_of_F(n - 1, others.nu));
+        }
+        return others.standard_deviation() * known->second;
+    }
+
+private:
+    std::map<std::pair<std::int64_t, std::int64_t>, double> factors_;
+};
 
 /// Methods of a certificate: sections may have one of their own.
 class MethodsOfCertificate {
@@ -118,6 +178,9 @@ public:
         found_.amendments += gumcert::json::part_of(data, "amendment").is_object() ? 1U : 0U;
         const std::string done = gumcert::json::text_of(dates, "performed_to");
         const std::string day = done.empty() ? gumcert::json::text_of(dates, "performed_from") : done;
+        if (!states_its_measurement(lives_.at(certificate.number))) {
+            return;
+        }
         take_scores(certificate.number, day, gumcert::json::part_of(record, "comparison"));
         take_readings(certificate.number, day, methods, gumcert::json::part_of(record, "readings"));
     }
@@ -138,18 +201,37 @@ public:
             std::sort(scatters.begin(), scatters.end(), [&](const ArchivedScatter& x, const ArchivedScatter& y) {
                 return std::tuple(value_of(x), x.day, x.number) < std::tuple(value_of(y), y.day, y.number);
             });
+            std::vector<std::vector<ArchivedScatter>> charts;
+            std::vector<ArchivedScatter> alone;
             for (auto first = scatters.begin(); first != scatters.end();) {
                 const auto last = std::find_if(first, scatters.end(), [&](const ArchivedScatter& one) {
                     return value_of(one) > k_near * value_of(*first);
                 });
                 if (last - first > 1) {
-                    found_.charts.push_back(chart_of(key, value_of(*first), {first, last}));
+                    charts.emplace_back(first, last);
                 } else {
-                    UnchartedScatter alone{.scatter = *first};
-                    std::tie(alone.method, alone.input, alone.unit) = key;
-                    found_.uncharted.push_back(std::move(alone));
+                    alone.push_back(*first);
                 }
                 first = last;
+            }
+            std::vector<double> near;
+            std::transform(charts.begin(), charts.end(), std::back_inserter(near),
+                           [&](const std::vector<ArchivedScatter>& chart) { return value_of(chart.front()); });
+            const std::vector<std::vector<ArchivedScatter>> of_their_means = charts;
+            for (ArchivedScatter& one : alone) {
+                const auto chart = std::find_if(of_their_means.begin(), of_their_means.end(), [&](const auto& sets) {
+                    return is_displaced_from(one, value_of(one), value_of(sets.front()), value_of(sets.back()), sets);
+                });
+                if (chart != of_their_means.end()) {
+                    charts[static_cast<std::size_t>(chart - of_their_means.begin())].push_back(std::move(one));
+                } else {
+                    UnchartedScatter told{.scatter = std::move(one)};
+                    std::tie(told.method, told.input, told.unit) = key;
+                    found_.uncharted.push_back(std::move(told));
+                }
+            }
+            for (std::size_t i = 0; i < charts.size(); ++i) {
+                found_.charts.push_back(chart_of(key, near[i], std::move(charts[i])));
             }
         }
         return std::move(found_);
@@ -162,6 +244,11 @@ private:
     std::map<std::string, CertificateLife> lives_;  // as the log says
     std::map<ChartKey, std::vector<ArchivedScatter>> scatters_;
 
+    /// Of a certificate and what amends or replaces it the one that holds has the readings: they were taken once.
+    static bool states_its_measurement(const CertificateLife& life) {
+        const bool is_amended = life.state == "amended-by" || life.state == "superseded";
+        return !is_amended && (life.amends.empty() || life.state == "issued");
+    }
     static bool by_day(const ArchivedScatter& a, const ArchivedScatter& b) {
         return std::tie(a.day, a.number) < std::tie(b.day, b.number);
     }
@@ -182,19 +269,41 @@ private:
         const double size = std::abs(one.mean);
         return size > k_away * usual ? size : 0.0;
     }
+    /// Whether a set has no others near it only because it scatters: as far as its own readings tell (three standard deviations
+    /// of their mean) they may be of a value of the chart, of which their scatter is beyond the limit.
+    static bool is_displaced_from(const ArchivedScatter& one, double value, double lowest, double highest,
+                                  const std::vector<ArchivedScatter>& chart) {
+        if (one.has_one_step) {
+            return false;
+        }
+        const double reach = 3.0 * one.standard_deviation / std::sqrt(static_cast<double>(one.n));
+        PooledScatter pooled;
+        std::for_each(chart.begin(), chart.end(), [&](const ArchivedScatter& other) { pooled.add(other); });
+        const std::optional<double> limit = LimitsOfScatter().of(pooled, one.n);
+        return value + reach >= lowest && value - reach <= highest && limit && one.standard_deviation > *limit;
+    }
     static RepeatabilityChart chart_of(const ChartKey& key, double near, std::vector<ArchivedScatter> scatters) {
         RepeatabilityChart chart;
         std::tie(chart.method, chart.input, chart.unit) = key;
         chart.near = near;
         std::sort(scatters.begin(), scatters.end(), by_day);
-        double sum = 0.0;
+        PooledScatter all;
+        std::vector<PooledScatter> before;  // of each set
         for (const ArchivedScatter& one : scatters) {
-            chart.degrees_of_freedom += one.n - 1;
-            sum += static_cast<double>(one.n - 1) * one.standard_deviation * one.standard_deviation;
+            before.push_back(all);
+            all.add(one);
         }
-        chart.pooled_standard_deviation = std::sqrt(sum / static_cast<double>(chart.degrees_of_freedom));
-        for (ArchivedScatter& one : scatters) {
-            one.limit = control_limit(chart.pooled_standard_deviation, one.n - 1);
+        chart.pooled_standard_deviation = all.standard_deviation();
+        chart.degrees_of_freedom = all.nu;
+        // A set is held against the others: it would raise a limit that it is in, and of a few sets none could be above.
+        LimitsOfScatter limits;
+        PooledScatter behind;
+        for (std::size_t i = scatters.size(); i-- > 0;) {
+            PooledScatter others = before[i];
+            others.squares += behind.squares;
+            others.nu += behind.nu;
+            scatters[i].limit = scatters[i].has_one_step ? std::nullopt : limits.of(others, scatters[i].n);
+            behind.add(scatters[i]);
         }
         chart.scatters = std::move(scatters);
         return chart;
@@ -243,7 +352,8 @@ private:
                  .day = day,
                  .mean = mean.get<double>(),
                  .standard_deviation = s.get<double>(),
-                 .n = n.get<std::int64_t>()});
+                 .n = n.get<std::int64_t>(),
+                 .has_one_step = differ_by_one_step(gumcert::json::part_of(one, "observations"))});
         }
     }
 };
@@ -300,7 +410,7 @@ std::string statistics_text(const ArchiveStatistics& statistics) {
             if (one.is_above()) {
                 text += "    ABOVE THE LIMIT: " + text::visible(one.number, 40) + "  " + text::visible(one.day, 20) +
                         "  " + digits(one.standard_deviation) + " of " + std::to_string(one.n) + " readings, limit " +
-                        digits(one.limit) + "\n";
+                        digits(*one.limit) + "\n";
             }
         }
     }
@@ -336,7 +446,7 @@ std::string statistics_json(const ArchiveStatistics& statistics) {
                               {"mean", one.mean},
                               {"standard_deviation", one.standard_deviation},
                               {"n", one.n},
-                              {"limit", one.limit},
+                              {"limit", one.limit ? json(*one.limit) : json()},
                               {"above", one.is_above()}});
         }
         charts.push_back({{"method", chart.method},

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,13 +18,20 @@ struct ArchivedScatter {
     double mean = 0.0;                ///< of the readings, [unit of the input]
     double standard_deviation = 0.0;  ///< of a reading, [unit of the input]
     std::int64_t n = 0;               ///< readings
-    double limit = 0.0;               ///< in statistical control a standard deviation lies below it with p = 0.99865
-    [[nodiscard]] bool is_above() const { return standard_deviation > limit; }
+    bool has_one_step = false;        ///< its readings differ by at most one step of their last digit
+    /// In statistical control a standard deviation lies below it with p = 0.99865; none where the others are all 0, or its
+    /// readings have one step.
+    std::optional<double> limit = {};
+    [[nodiscard]] bool is_above() const { return limit && standard_deviation > *limit; }
 };
 
 /// A control chart of standard deviations: readings of the same input of the same method near the same value. Near is
 /// within 5 % of the smallest one; readings whose mean is less than ten usual standard deviations away from 0 are near 0.
-/// Usual is the median of all sets of this input: what a set is compared with does not depend on its own scatter.
+/// Usual is the median of all sets of this input: what a set is compared with does not depend on its own scatter. Only a set that
+/// scatters beyond the limit of a chart, and so much that its readings may be of a value of it, is in it as well.
+///
+/// The limit of a set with ν degrees of freedom is s_o √F(ν, ν_o; 0.99865), where s_o pools the other sets of the chart: a ratio of
+/// variances that are independent of each other, so that it is exact for any number of sets.
 struct RepeatabilityChart {
     std::string method, input, unit;
     double near = 0.0;                       ///< the mean of the readings that is next to 0, [unit]; 0: near 0
@@ -57,7 +65,8 @@ struct ArchiveStatistics {
     std::vector<UnchartedScatter> uncharted;           ///< by method, input and unit, then by value
 };
 
-/// Reads all records of an archive. Withdrawn certificates are counted by state only.
+/// Reads all records of an archive. Withdrawn certificates are counted by state only. Of a certificate and its amendments scores
+/// and readings are those of the one that holds.
 [[nodiscard]] ArchiveStatistics statistics_of(Archive& archive);
 
 /// For people: tables of counts, scores, and charts with what lies above their limits.

@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <utility>
 
+#include "gum/expression/name.h"
 #include "json/members.h"
 #include "reports/record/evaluation_record.h"
+#include "text/utf8.h"
 
 namespace gumcert::archive {
 
@@ -177,24 +180,78 @@ std::string first_stated(const nlohmann::json& dates, const std::array<const cha
     return "";
 }
 
-bool is_letter_or_digit(char c) {
-    return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') ||
-           static_cast<unsigned char>(c) >= 0x80U;
+/// A character that may go on with a name.
+struct Neighbour {
+    char32_t code = 0;      ///< 0: there is none
+    std::size_t bytes = 0;  ///< of it
+};
+
+Neighbour character_at(std::string_view text, std::size_t at) {
+    if (at >= text.size()) {
+        return {};
+    }
+    const text::Character found = text::decode_utf8(text, at);
+    return found.bytes == 0 ? Neighbour{0xFFFD, 1} : Neighbour{found.code, found.bytes};
 }
 
-bool joins(char c) {
-    return c == '-' || c == '/' || c == '_' || c == '.';
+/// \param at  behind it
+Neighbour character_before(std::string_view text, std::size_t at) {
+    std::size_t first = at;
+    while (first > 0 && text::is_continuation(text[first - 1])) {
+        --first;
+    }
+    first -= first > 0 ? std::size_t{1} : std::size_t{0};
+    return at == 0 ? Neighbour{} : character_at(text, first);
+}
+
+bool is_joined(char32_t code) {
+    return code == U'-' || code == U'/' || code == U'_' || code == U'.' || (code >= 0x2010 && code <= 0x2012);
+}
+
+/// Letters that follow each other in one word. Chinese and Japanese have no blanks between words, and Korean puts its particles
+/// behind a name: letters of another script beside a name are another word.
+enum class Letters : std::uint8_t { none, western, other, digits };
+
+Letters letters_of(char32_t code) {
+    constexpr char32_t k_full_width = 0xFEE0;  // from U+0021 to U+FF01
+    const char32_t plain = code >= 0xFF01 && code <= 0xFF5E ? code - k_full_width : code;
+    if (plain >= U'0' && plain <= U'9') {
+        return Letters::digits;
+    }
+    const bool is_rare_ideograph = (code >= 0xF900 && code <= 0xFAFF) || (code >= 0x20000 && code <= 0x3FFFF);
+    const gum::CharacterClass kind = gum::character_class(plain);
+    const bool is_letter = kind == gum::CharacterClass::name_start && plain != U'_';
+    constexpr char32_t k_first_of_others = 0x530;
+    const bool is_western = plain < k_first_of_others || (plain >= 0x1E00 && plain < 0x2E80);
+    return is_rare_ideograph                             ? Letters::other
+           : kind == gum::CharacterClass::combining_mark ? Letters::western
+           : is_letter                                   ? (is_western ? Letters::western : Letters::other)
+                                                         : Letters::none;
+}
+
+/// Whether a letter or digit beside a name makes it another name; punctuation of whatever script and blanks of whatever
+/// width do not. Where that cannot be told the name is a word of its own: one standard that is missed is worse than one
+/// that is looked at in vain.
+/// \param edge  the character of the name beside it
+bool goes_on(char32_t code, char32_t edge) {
+    const Letters beside = letters_of(code);
+    const bool is_other_edge = letters_of(edge) == Letters::other;
+    return beside == Letters::digits || beside == (is_other_edge ? Letters::other : Letters::western);
 }
 
 /// Whether a name ends at a place of a text: what follows is no part of it. "STD-017." ends a sentence.
 bool ends_at(std::string_view text, std::size_t at) {
-    return at >= text.size() || (!is_letter_or_digit(text[at]) &&
-                                 !(joins(text[at]) && at + 1 < text.size() && is_letter_or_digit(text[at + 1])));
+    const char32_t edge = character_before(text, at).code;
+    const Neighbour next = character_at(text, at);
+    const Neighbour behind = is_joined(next.code) ? character_at(text, at + next.bytes) : Neighbour{};
+    return !goes_on(next.code, edge) && !goes_on(behind.code, edge);
 }
 
 bool begins_at(std::string_view text, std::size_t at) {
-    return at == 0 ||
-           (!is_letter_or_digit(text[at - 1]) && !(joins(text[at - 1]) && at >= 2 && is_letter_or_digit(text[at - 2])));
+    const char32_t edge = character_at(text, at).code;
+    const Neighbour before = character_before(text, at);
+    const Neighbour behind = is_joined(before.code) ? character_before(text, at - before.bytes) : Neighbour{};
+    return !goes_on(before.code, edge) && !goes_on(behind.code, edge);
 }
 
 }  // namespace
@@ -219,10 +276,9 @@ std::optional<RecordReferences> references_of(std::string_view record) {
     collector.walk(value);
     const nlohmann::json& dates =
         gumcert::json::part_of(gumcert::json::part_of(gumcert::json::part_of(value, "certificate"), "data"), "dates");
-    return RecordReferences{
-        .references = std::move(collector).references(),
-        .used_from = first_stated(dates, {"performed_from", "performed_to", "authorised", "issued"}),
-        .used_to = first_stated(dates, {"performed_to", "performed_from", "authorised", "issued"})};
+    return RecordReferences{.references = std::move(collector).references(),
+                            .used_from = gumcert::json::text_of(dates, "performed_from"),
+                            .used_to = first_stated(dates, {"performed_to", "performed_from", "authorised", "issued"})};
 }
 
 bool names(std::string_view text, std::string_view name) {
@@ -235,6 +291,23 @@ bool names(std::string_view text, std::string_view name) {
         }
     }
     return false;
+}
+
+std::vector<std::string_view> plain_words_of(std::string_view text) {
+    std::vector<std::string_view> words;
+    const auto is_plain = [](char c) {
+        return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
+    };
+    for (auto first = text.begin(); first != text.end();) {
+        first = std::find_if(first, text.end(), is_plain);
+        const auto last = std::find_if_not(first, text.end(), is_plain);
+        if (first != last) {
+            words.push_back(
+                text.substr(static_cast<std::size_t>(first - text.begin()), static_cast<std::size_t>(last - first)));
+        }
+        first = last;
+    }
+    return words;
 }
 
 std::string standard_of_file(std::string_view name) {

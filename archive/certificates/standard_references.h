@@ -24,7 +24,8 @@ struct StandardReference {
 /// What a record says of one certificate.
 struct RecordReferences {
     std::vector<StandardReference> references;  ///< each one once
-    /// Days of the work, "2026-11-18"; where the record states none, that of the authorisation or issue; "" without any.
+    /// Days of the work, "2026-11-18". Where no first day is stated, none is known. The last one is stated, or the first, or the
+    /// day of the authorisation or issue, before which the work was done; "" without any.
     std::string used_from, used_to;
 };
 
@@ -35,8 +36,13 @@ struct RecordReferences {
 [[nodiscard]] std::optional<RecordReferences> references_of(std::string_view record);
 
 /// Whether a text names something: all of it is the name, or the name stands in it as a word of its own. "STD-017" stands in
-/// "STD-017, certificate 12", and neither in "STD-0171" nor in "STD-017-2" or "STD-017/A1".
+/// "STD-017, certificate 12", in quotes of any language and in Chinese without blanks, and neither in "STD-0171" nor in "STD-017-2"
+/// or "STD-017/A1".
 [[nodiscard]] bool names(std::string_view text, std::string_view name);
+
+/// The letters and digits of ASCII that stand together in a text: "STD" and "017" of "STD-017". Whatever text names something has
+/// all words of the name among its own.
+[[nodiscard]] std::vector<std::string_view> plain_words_of(std::string_view text);
 
 /// Identification of the standard whose file of the register it is: "STD-017" of "laboratory/standards/STD-017.json"; ""
 /// of other files.

@@ -931,6 +931,10 @@ TEST_F(ArchiveOfALaboratory, BacksUpAndReplays) {
     const Ended ended = archive({"backup", "-o", path("copy.archive")}, "K. Keeper");
     ASSERT_EQ(ended.code, 0) << ended.err;
     EXPECT_EQ(archive({"backup", "-o", path("copy.archive")}, "K. Keeper").code, 2) << "a backup is a new file";
+    constexpr fs::perms k_write = fs::perms::owner_write | fs::perms::group_write | fs::perms::others_write;
+    EXPECT_EQ(fs::status(path("copy.archive")).permissions() & k_write, fs::perms::none)
+        << "two archives would give out the same numbers";
+    EXPECT_NE(fs::status(store()).permissions() & k_write, fs::perms::none);
     fs::rename(path("copy.archive"), store());
     EXPECT_EQ(archive({"verify"}).code, 0);
     const json replayed = shown({"replay"});

@@ -1,11 +1,13 @@
 #include "app/cli/archive/certificate_life.h"
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "app/cli/archive/action.h"
 #include "app/cli/terminal/clock.h"
+#include "app/cli/terminal/interruption.h"
 #include "app/cli/terminal/share_folder.h"
 #include "app/cli/terminal/terminal.h"
 #include "archive/archive.h"
@@ -20,11 +22,14 @@ ExitCode add_draft(const ArchiveOptions& options, const CommonOptions& common, b
     const auto store = opened(options, archive::Access::read_and_write);
     archive::Archive archive(*store);
     ProgressLine progress(!common.quiet);
-    archive::ArchiveChecks checks{.threads = static_cast<unsigned>(common.threads),
-                                  .templates = templates_folder(options.share),
-                                  .trusted = {},
-                                  .now = seconds_now(),
-                                  .progress = [&](const std::string& text) { progress(text); }};
+    archive::ArchiveChecks checks{
+        .threads = static_cast<unsigned>(common.threads),
+        .templates = templates_folder(options.share),
+        .trusted = {},
+        .now = seconds_now(),
+        .progress = [&](const std::string& text) { progress(text); },
+        .within_walls = [&](const auto& files,
+                            const std::function<void()>& work) { work_within_walls(common, files, work); }};
     if (!options.trust.empty()) {
         checks.trusted = signing::read_trust_store(options.trust);
     }

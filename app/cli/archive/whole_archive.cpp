@@ -165,6 +165,10 @@ ExitCode back_up(const ArchiveOptions& options, const CommonOptions& common) {
         return archive::Archive(*store).note_backup(file.filename().string(), *verification.head, request_of(options));
     });
     made.put_in_place();
+    // Nobody writes into a copy by mistake: two archives would give out the same numbers. Where a disk knows no such rights it
+    // is a copy all the same.
+    constexpr fs::perms k_write = fs::perms::owner_write | fs::perms::group_write | fs::perms::others_write;
+    fs::permissions(file, k_write, fs::perm_options::remove, error);
     return told(written, options, common);
 }
 

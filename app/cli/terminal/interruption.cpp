@@ -160,6 +160,15 @@ gum::Diagnostic reached(system::Ceiling which, const CommonOptions& common) {
                              : "give it more by --time-limit, or split the work; 0 is no limit"};
 }
 
+[[noreturn]] void end_at_ceiling(system::Ceiling which, const CommonOptions& common) {
+    constexpr std::chrono::seconds k_patience{20};  // for a set of files that is being put in place
+    const system::CleanupLock lock = system::clean_up(k_patience);
+    const gum::Diagnostic why = reached(which, common);
+    print_message(why, common);
+    log_refusal(why, common);
+    std::_Exit(storage_trouble);
+}
+
 bool messages_as_json = false;
 
 /// Memory can run out where no exception may leave: in a thread, in a destructor, before main(). What everywhere else
@@ -225,14 +234,16 @@ CommonOptions with_walls(CommonOptions common, const std::vector<std::filesystem
 void keep_ceilings(const CommonOptions& common) {
     const system::Ceilings ceilings{.memory = common.memory_limit.value_or(0),
                                     .time = std::chrono::seconds(common.time_limit.value_or(0))};
-    system::watch_ceilings(ceilings, [common](system::Ceiling which) {
-        constexpr std::chrono::seconds k_patience{20};  // for a set of files that is being put in place
-        const system::CleanupLock lock = system::clean_up(k_patience);
-        const gum::Diagnostic why = reached(which, common);
-        print_message(why, common);
-        log_refusal(why, common);
-        std::_Exit(storage_trouble);
-    });
+    system::watch_ceilings(ceilings, [common](system::Ceiling which) { end_at_ceiling(which, common); });
+}
+
+void work_within_walls(const CommonOptions& common, const std::vector<std::filesystem::path>& files,
+                       const std::function<void()>& work) {
+    const CommonOptions walls = with_walls(common, files);
+    const system::Ceilings ceilings{.memory = common.memory_limit ? 0 : walls.memory_limit.value_or(0),
+                                    .time = std::chrono::seconds(common.time_limit ? 0 : walls.time_limit.value_or(0))};
+    const system::CeilingsOfWork watch(ceilings, [walls](system::Ceiling which) { end_at_ceiling(which, walls); });
+    work();
 }
 
 void tell_stage(const std::string& text) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,11 @@ void clean_up_at_signals(bool json_messages);
 /// Keeps the command within its ceilings: one that is reached ends it by exit code 5 with a message that names it
 /// (GC-STORE-0024), after its children are ended and its temporary files removed.
 void keep_ceilings(const CommonOptions& common);
+
+/// Keeps a part of a command that reads files of others within walls, where no limit was given for all of it: the rest has
+/// none.
+void work_within_walls(const CommonOptions& common, const std::vector<std::filesystem::path>& files,
+                       const std::function<void()>& work);
 
 /// What the program is doing, for the words of an interruption.
 void tell_stage(const std::string& text);

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 #include <set>
+#include <tuple>
 
 #include "archive/store/open_store.h"
 #include "archive/verification.h"
@@ -490,6 +491,27 @@ TYPED_TEST(ArchiveLaws, RefusesAClockThatGoesBack) {
     (void)this->archive_->take_number(second);
     second.at.replace(17, 2, "10");  // a server set the clock right, by some seconds
     EXPECT_EQ(this->archive_->take_number(second).entry.at.substr(17, 2), "30");
+}
+
+/// Less than a minute behind is the time of the last entry, where a minute, an hour or a year begins between them as well.
+TYPED_TEST(ArchiveLaws, TakesAClockThatIsLessThanAMinuteBehind) {
+    Request request = this->by("A. Author");
+    for (const auto& [last, behind, is_taken] : {std::tuple{"2026-03-01T10:00:10Z", "2026-03-01T09:59:11Z", true},
+                                                 {"2026-03-01T10:00:10Z", "2026-03-01T09:59:10Z", false},
+                                                 {"2026-05-01T00:00:05Z", "2026-04-30T23:59:30Z", true},
+                                                 {"2027-01-01T00:00:20Z", "2026-12-31T23:59:55Z", true},
+                                                 {"2027-01-01T00:00:20Z", "2026-12-31T23:59:20Z", false},
+                                                 {"2027-01-01T00:30:20Z", "2027-01-01T00:29:50Z", true}}) {
+        request.at = last;
+        const std::string first = this->archive_->take_number(request).entry.at;
+        EXPECT_EQ(first, last);
+        request.at = behind;
+        if (is_taken) {
+            EXPECT_EQ(this->archive_->take_number(request).entry.at, last);
+        } else {
+            EXPECT_EQ(code_of([&] { (void)this->archive_->take_number(request); }), "GC-ARCHIVE-0032") << behind;
+        }
+    }
 }
 
 TYPED_TEST(ArchiveLaws, DoesNothingTwiceForOneKey) {

@@ -96,6 +96,7 @@ TEST_F(ArchiveOfStandards, AreFoundAllOfThemAndNoOther) {
     struct Truth {
         std::set<int> standards, certificates;
         std::string day;
+        bool has_first_day = false;
         bool is_withdrawn = false;
     };
     std::vector<Truth> truth;
@@ -119,6 +120,10 @@ TEST_F(ArchiveOfStandards, AreFoundAllOfThemAndNoOther) {
         if (chance(5) > 0) {
             one.day = "2026-0" + std::to_string(1 + chance(9)) + "-15";
             record["certificate"]["data"]["dates"]["performed_to"] = one.day;
+            one.has_first_day = chance(3) > 0;
+            if (one.has_first_day) {
+                record["certificate"]["data"]["dates"]["performed_from"] = one.day;
+            }
         }
         add(number(i), record.dump(), chance(4) > 0);
         if (chance(10) == 0) {
@@ -137,7 +142,7 @@ TEST_F(ArchiveOfStandards, AreFoundAllOfThemAndNoOther) {
             for (int i = 0; i < k_certificates; ++i) {
                 const Truth& one = truth[static_cast<std::size_t>(i)];
                 const bool after = one.day.empty() || one.day >= wrong.since;
-                const bool before = one.day.empty() || wrong.until.empty() || one.day <= wrong.until;
+                const bool before = !one.has_first_day || wrong.until.empty() || one.day <= wrong.until;
                 bool rests = one.standards.contains(standard) && before;
                 for (const int other : one.certificates) {
                     rests = rests || reached.contains(number(other));

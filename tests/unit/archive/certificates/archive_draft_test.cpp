@@ -2,8 +2,17 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <functional>
 #include <string>
+#include <vector>
 
+#include "evaluation/evaluate_job.h"
+#include "reports/forms/document_forms.h"
+#include "reports/forms/render.h"
+#include "tests/support/archive_folder.h"
 #include "tests/unit/reports/certified_sample.h"
 
 namespace gumcert::archive {
@@ -25,6 +34,42 @@ TEST(ArchiveDraft, PrintedDaysAreThoseOfThePlace) {
     EXPECT_EQ(doubts("issued", "2027-01-01"), 0U);
     EXPECT_EQ(doubts("issued", "2027-01-02"), 1U);
     EXPECT_EQ(doubts("reviewed", "2027-01-02"), 0U);
+}
+
+/// Files of others are read within walls, all of them counting; how long the evaluation between takes is said by its job.
+TEST(ArchiveDraft, ReadsFilesWithinWallsAndEvaluatesOutsideOfThem) {
+    const test::StoreFolder folder;
+    const std::filesystem::path tree(GUMCERT_SOURCE_DIR);
+    const std::filesystem::path record = folder.file("record");
+    const std::filesystem::path page = folder.file("page");
+    const evaluation::Evaluation evaluation = evaluation::evaluate_job(
+        tree / "examples" / "laboratory" / "end_gauge.json", evaluation::CovarianceFile::none, 1, tree / "templates",
+        {}, evaluation::program_kinds(), tree / "examples" / "laboratory" / "laboratory");
+    std::ofstream(record, std::ios::binary) << reports::to_canonical_json(evaluation.record);
+    reports::RenderAssets assets;
+    assets.templates = tree / "templates";
+    std::ofstream(page, std::ios::binary) << reports::render_html(evaluation.record, assets);
+    std::vector<std::string> said;
+    bool is_within = false;
+    ArchiveChecks checks{.threads = 1, .templates = tree / "templates", .trusted = {}, .now = 0, .progress = {}};
+    checks.progress = [&](const std::string& text) {
+        said.push_back(text + (is_within ? ", within walls" : ", outside"));
+    };
+    checks.within_walls = [&](const std::vector<std::filesystem::path>& files, const std::function<void()>& work) {
+        said.push_back(std::to_string(files.size()) + " files");
+        EXPECT_NE(std::find(files.begin(), files.end(), record), files.end());
+        EXPECT_NE(std::find(files.begin(), files.end(), page), files.end());
+        is_within = true;
+        work();
+        is_within = false;
+    };
+    EXPECT_EQ(checked_draft(record, {page}, checks).draft.documents.size(), 1U);
+    ASSERT_GE(said.size(), 3U);
+    EXPECT_EQ(said[0], "2 files");
+    EXPECT_EQ(said[said.size() - 2], "2 files");
+    EXPECT_EQ(said.back(), "checking " + page.filename().string() + ", within walls");
+    EXPECT_TRUE(
+        std::all_of(said.begin() + 1, said.end() - 2, [](const auto& one) { return one.ends_with("outside"); }));
 }
 
 }  // namespace

@@ -83,8 +83,8 @@ TEST_F(StatisticsOfAnArchive, ListsScoresOfComparisons) {
     EXPECT_DOUBLE_EQ(found.scores[0].largest, 1.2);
 }
 
-/// Sets of readings near one value are one chart; one that scatters too much is told, and its limit is that of a table of
-/// χ²: for three readings χ²(2; 0.99865) = −2 ln 0.00135 = 13.2153, √(13.2153/2) = 2.57054.
+/// Sets of readings near one value are one chart; one that scatters too much is told, and its limit is that of the others: F
+/// has a closed form for two degrees of freedom, F(2, ν; 1 − q) = ν/2 (q^(−2/ν) − 1).
 TEST_F(StatisticsOfAnArchive, ChartsStandardDeviations) {
     for (int i = 0; i < 20; ++i) {
         json one = record("CP-01", "2026-11-" + std::to_string(10 + i), "M. Weber");
@@ -101,7 +101,9 @@ TEST_F(StatisticsOfAnArchive, ChartsStandardDeviations) {
     EXPECT_EQ(chart.scatters.size(), 20U);
     EXPECT_EQ(chart.degrees_of_freedom, 40);
     EXPECT_NEAR(chart.pooled_standard_deviation, std::sqrt((19 * 1e-6 + 1e-4) / 20), 1e-12);
-    EXPECT_NEAR(chart.scatters[0].limit / chart.pooled_standard_deviation, 2.57054, 1e-5);
+    const double F = 38.0 / 2.0 * (std::pow(0.00135, -2.0 / 38.0) - 1.0);
+    EXPECT_NEAR(chart.scatters[0].limit.value(), std::sqrt((18 * 1e-6 + 1e-4) / 19 * F), 1e-9);
+    EXPECT_NEAR(chart.scatters[7].limit.value(), 1e-3 * std::sqrt(F), 1e-9);
     for (const ArchivedScatter& one : chart.scatters) {
         EXPECT_EQ(one.is_above(), one.number == "C-107");
     }
@@ -139,7 +141,7 @@ TEST_F(StatisticsOfAnArchive, TakeTheMethodsOfSections) {
 }
 
 /// A set that is out of control has a mean that is less than ten of its own standard deviations away from 0: it stays beside
-/// those with its mean. s_p² = (7.6² + 8.36² + 6.84² + 7.6² + 22.8²)/5, √(χ²(9; 0.99865)/9) = 1.7347.
+/// those with its mean. s_p² = (7.6² + 8.36² + 6.84² + 7.6² + 22.8²)/5, s_o² the same without the last one, F(9, 36; 0.99865) = 3.9815.
 TEST_F(StatisticsOfAnArchive, ChartASetBesideThoseOfItsMeanWhateverItsScatter) {
     const std::array<double, 5> s = {7.6, 8.36, 6.84, 7.6, 22.8};
     for (std::size_t i = 0; i < s.size(); ++i) {
@@ -152,10 +154,118 @@ TEST_F(StatisticsOfAnArchive, ChartASetBesideThoseOfItsMeanWhateverItsScatter) {
     EXPECT_EQ(found.charts[0].scatters.size(), 5U);
     EXPECT_EQ(found.charts[0].degrees_of_freedom, 45);
     EXPECT_NEAR(found.charts[0].pooled_standard_deviation, 12.264, 0.0005);
-    EXPECT_NEAR(found.charts[0].scatters[4].limit, 21.28, 0.005);
+    EXPECT_NEAR(found.charts[0].scatters[4].limit.value(), 15.20, 0.005);
     EXPECT_TRUE(found.charts[0].scatters[4].is_above());
     EXPECT_NE(statistics_text(found).find("ABOVE THE LIMIT: C-4"), std::string::npos);
     EXPECT_TRUE(found.uncharted.empty());
+}
+
+/// Of few sets each is held against the others: in a limit that it is in itself, none of four sets of five readings could be above.
+TEST_F(StatisticsOfAnArchive, TellASetAmongFew) {
+    for (int i = 0; i < 3; ++i) {
+        json one = record("CP-01", "2026-11-1" + std::to_string(i), "M. Weber");
+        one["readings"] = {readings(1000.0, i == 1 ? 50.0 : 1.0, 5)};
+        add("C-" + std::to_string(i), one);
+    }
+    const ArchiveStatistics found = statistics_of(archive_);
+    ASSERT_EQ(found.charts.size(), 1U);
+    EXPECT_TRUE(found.charts[0].scatters[1].is_above());
+    EXPECT_NEAR(found.charts[0].scatters[1].limit.value(), std::sqrt(13.17367), 1e-5) << "F(4, 8; 0.99865) of a table";
+    EXPECT_FALSE(found.charts[0].scatters[0].is_above());
+}
+
+/// A mean that a set out of control has moved away from the others does not hide it; a set of another value stays alone.
+TEST_F(StatisticsOfAnArchive, TellASetWhoseMeanHasLeftTheOthers) {
+    const std::array<std::pair<double, double>, 6> sets = {
+        {{215.0, 6.0}, {214.0, 5.0}, {216.0, 6.5}, {193.0, 44.6}, {900.0, 9.3}, {240.0, 8.0}}};
+    for (std::size_t i = 0; i < sets.size(); ++i) {
+        json one = record("CP-01", "2026-11-1" + std::to_string(i), "M. Weber");
+        one["readings"] = {readings(sets.at(i).first, sets.at(i).second, 5)};
+        add("C-" + std::to_string(i), one);
+    }
+    const ArchiveStatistics found = statistics_of(archive_);
+    ASSERT_EQ(found.charts.size(), 1U);
+    EXPECT_NEAR(found.charts[0].near, 214.0, 1e-9);
+    ASSERT_EQ(found.charts[0].scatters.size(), 4U);
+    EXPECT_EQ(found.charts[0].scatters[3].number, "C-3");
+    EXPECT_TRUE(found.charts[0].scatters[3].is_above());
+    ASSERT_EQ(found.uncharted.size(), 2U);
+    EXPECT_EQ(found.uncharted[0].scatter.number + found.uncharted[1].scatter.number, "C-5C-4");
+}
+
+/// What a display does with steady readings says nothing of the method.
+TEST_F(StatisticsOfAnArchive, AccuseNoSetOfOneStep) {
+    const auto set = [](const std::vector<std::string>& observations, double s) {
+        json one = readings(100.0, s, static_cast<int>(observations.size()));
+        one["observations"] = observations;
+        return one;
+    };
+    for (int i = 0; i < 12; ++i) {
+        json one = record("CP-01", "2026-11-" + std::to_string(10 + i), "M. Weber");
+        one["readings"] = {i < 2    ? set({"100.0", "100.0", "100.1", "100.0"}, 0.05)
+                           : i == 2 ? set({"100.0", "100.0", "100.2", "100.0"}, 0.1)
+                                    : set({"100.0", "100.0", "100.0", "100.0"}, 0.0)};
+        add("C-" + std::to_string(100 + i), one);
+    }
+    const ArchiveStatistics found = statistics_of(archive_);
+    ASSERT_EQ(found.charts.size(), 1U);
+    EXPECT_FALSE(found.charts[0].scatters[0].limit);
+    EXPECT_FALSE(found.charts[0].scatters[1].is_above());
+    EXPECT_TRUE(found.charts[0].scatters[2].is_above());
+    EXPECT_TRUE(json::parse(statistics_json(found))["charts"][0]["values"][0]["limit"].is_null());
+}
+
+/// Where all others are equal nobody knows how readings scatter.
+TEST_F(StatisticsOfAnArchive, HaveNoLimitWhereAllOthersAreEqual) {
+    for (int i = 0; i < 12; ++i) {
+        json one = record("CP-01", "2026-11-" + std::to_string(10 + i), "M. Weber");
+        one["readings"] = {readings(100.0, i == 4 ? 0.3 : 0.0, 5)};
+        add("C-" + std::to_string(100 + i), one);
+    }
+    const RepeatabilityChart chart = statistics_of(archive_).charts.at(0);
+    EXPECT_TRUE(
+        std::none_of(chart.scatters.begin(), chart.scatters.end(), [](const auto& one) { return one.is_above(); }));
+    EXPECT_FALSE(chart.scatters[4].limit);
+    EXPECT_TRUE(chart.scatters[0].limit);
+}
+
+/// An amendment has the readings of its original: they were taken once, and count once, whichever of the two holds.
+TEST_F(StatisticsOfAnArchive, CountReadingsOfAnAmendmentOnce) {
+    json one = record("CP-01", "2026-11-05", "M. Weber");
+    one["readings"] = {readings(10.0, 0.1, 5)};
+    one["comparison"] = {{"points", {{{"En", 0.4}}}}, {"items", json::array()}};
+    add("C-1", one);
+    add("C-2", one);
+    const auto counted = [&] {
+        const ArchiveStatistics found = statistics_of(archive_);
+        std::string said = std::to_string(found.scores.size()) + " scores";
+        for (const RepeatabilityChart& chart : found.charts) {
+            for (const ArchivedScatter& scatter : chart.scatters) {
+                said += " " + scatter.number;
+            }
+        }
+        for (const UnchartedScatter& alone : found.uncharted) {
+            said += " " + alone.scatter.number;
+        }
+        return said;
+    };
+    EXPECT_EQ(counted(), "2 scores C-1 C-2");
+    for (const std::string original : {"C-1", "C-1/A1"}) {
+        const std::string number = original + "/A1";
+        Draft draft = test::sample_draft(number);
+        draft.record = one.dump(static_cast<int>(number.size()));
+        draft.amends = Draft::Amends{.number = original, .kind = "amended", .changes = {{"text", "/item", "a", "b"}}};
+        (void)archive_.draft(draft, by("A. Author"));
+        EXPECT_EQ(counted(), "2 scores " + (original == "C-1" ? std::string("C-1 C-2") : "C-1/A1 C-2"))
+            << "not issued yet";
+        for (const char* const kind : {"reviewed", "authorised", "issued"}) {
+            (void)archive_.advance(number, kind, by("R. Reviewer"));
+        }
+        EXPECT_EQ(counted(), "2 scores " + number + " C-2");
+    }
+    (void)archive_.advance("C-1/A1/A1", "withdrawn", by("R. Reviewer"));
+    EXPECT_EQ(counted(), "1 scores C-2");
+    EXPECT_EQ(statistics_of(archive_).by_method.at("CP-01"), 3U) << "certificates are counted one by one";
 }
 
 /// Law: whatever scatters how much, sets with one mean are in one chart, and every set is in a chart or told to be in none.

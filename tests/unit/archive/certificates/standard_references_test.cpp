@@ -27,6 +27,58 @@ TEST(NameInAText, IsAWordOfItsOwn) {
     EXPECT_FALSE(names("anything", ""));
 }
 
+/// Punctuation and blanks of any script end a name, and so does a word of a script without blanks beside it. Only a letter of the
+/// same kind, an accent or a digit makes it another one.
+TEST(NameInAText, EndsAtPunctuationAndWordsOfAnyScript) {
+    for (const char* const text :
+         {"„STD-017“", "“STD-017”", "«STD-017»", "STD-017\u00A0(K-0815)", "STD-017\u202Fund STD-018",
+          "STD-017，證書 12", "用STD-017校準", "（STD-017）", "STD-017을 사용", "STD-017– from 2024", "STD-017—",
+          "STD-017…", "№STD-017", "STD-017²", "STD-017\u3000", "STD-017。", "STD-017\u2010"}) {
+        EXPECT_TRUE(names(text, "STD-017")) << text;
+    }
+    for (const char* const text : {"STD-017é", "ÉSTD-017", "STD-017µ", "STD-017\u0301", "STD-017２", "STD-017ａ",
+                                   "STD-017\u20112", "STD\u2011017", "STD-017/Ä", "é-STD-017"}) {
+        EXPECT_FALSE(names(text, "STD-017")) << text;
+    }
+    for (const char* const text : {"標準器", "標準器、天平", "「標準器」", "標準器 STD-017", "標準器STD"}) {
+        EXPECT_TRUE(names(text, "標準器")) << text;
+    }
+    for (const char* const text : {"標準器具", "新標準器", "標準器2", "標準器-2"}) {
+        EXPECT_FALSE(names(text, "標準器")) << text;
+    }
+    EXPECT_TRUE(names("STD-017\xFF", "STD-017")) << "no UTF-8";
+    EXPECT_TRUE(names("\x80STD-017", "STD-017")) << "no UTF-8";
+}
+
+/// Law: a text that names something has all of its plain words, so that it is found by any of them.
+TEST(NameInAText, HasItsWordsInTheText) {
+    std::mt19937_64 random(29);
+    const std::vector<std::string> parts = {"STD", "017",    "-",  "/", "_", ".",    " ", "標",
+                                            "é",   "\u0301", "２", "„", "x", "\xFF", "0"};
+    const auto of_chance = [&](std::size_t most) {
+        std::string text;
+        for (auto n = 1 + random() % most; n > 0; --n) {
+            text += parts[random() % parts.size()];
+        }
+        return text;
+    };
+    std::size_t found = 0;
+    for (int i = 0; i < 200'000; ++i) {
+        const std::string name = of_chance(3);
+        const std::string text = of_chance(2) + (i % 2 == 0 ? name : "") + of_chance(2);
+        if (names(text, name)) {
+            ++found;
+            const std::vector<std::string_view> words = plain_words_of(text);
+            for (const std::string_view word : plain_words_of(name)) {
+                EXPECT_NE(std::find(words.begin(), words.end(), word), words.end()) << name << " in " << text;
+            }
+        }
+    }
+    EXPECT_GT(found, 10'000U);
+    EXPECT_EQ(plain_words_of("STD-017"), (std::vector<std::string_view>{"STD", "017"}));
+    EXPECT_TRUE(plain_words_of("„…“").empty());
+}
+
 TEST(FileOfTheRegister, SaysWhichStandardItIs) {
     EXPECT_EQ(standard_of_file("laboratory/standards/STD-017.json"), "STD-017");
     EXPECT_EQ(standard_of_file("laboratory:/standards/STD-017.json"), "STD-017");
@@ -66,12 +118,17 @@ TEST(RecordReferences, AreTakenFromEveryPlace) {
     EXPECT_FALSE(references_of("no record"));
 }
 
-TEST(RecordReferences, TakeTheDayOfIssueWhereTheWorkHasNone) {
-    const auto found = references_of(R"({"certificate": {"data": {"dates": {"issued": "2026-05-06"}}}})");
-    ASSERT_TRUE(found);
-    EXPECT_EQ(found->used_from, "2026-05-06");
-    EXPECT_EQ(found->used_to, "2026-05-06");
-    EXPECT_EQ(references_of("{}")->used_to, "");
+/// The work was done before the certificate was authorised and issued, nobody knows how long before.
+TEST(RecordReferences, TakeNoDayOfIssueForTheFirstDayOfTheWork) {
+    const auto days_of = [](const std::string& dates) {
+        const auto found = references_of(R"({"certificate": {"data": {"dates": )" + dates + "}}}");
+        return found ? found->used_from + "/" + found->used_to : "nothing";
+    };
+    EXPECT_EQ(days_of(R"({"issued": "2026-05-06"})"), "/2026-05-06");
+    EXPECT_EQ(days_of(R"({"authorised": "2026-05-05", "issued": "2026-05-06"})"), "/2026-05-05");
+    EXPECT_EQ(days_of(R"({"performed_to": "2026-05-04", "issued": "2026-05-06"})"), "/2026-05-04");
+    EXPECT_EQ(days_of(R"({"performed_from": "2026-05-03", "issued": "2026-05-06"})"), "2026-05-03/2026-05-03");
+    EXPECT_EQ(days_of("{}"), "/");
 }
 
 using SaidTexts = std::set<std::pair<StandardReference::Kind, std::string>>;
