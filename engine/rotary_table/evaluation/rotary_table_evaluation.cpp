@@ -17,11 +17,7 @@
 #include "engine/rotary_table/anglewise_map.h"
 #include "engine/rotary_table/geometry_check.h"
 #include "engine/rotary_table/group_notes.h"
-#include "engine/rotary_table/start/gross_errors.h"
-#include "engine/rotary_table/start/interrupted_beams.h"
-#include "engine/rotary_table/start/no_rigid_table.h"
-#include "engine/rotary_table/start/start_values.h"
-#include "engine/rotary_table/start/wrong_labels.h"
+#include "engine/rotary_table/start/start_search.h"
 #include "engine/rotary_table/station_covariance.h"
 #include "gum/quantity/units.h"
 #include "text/numbers.h"
@@ -827,9 +823,10 @@ struct Adjusted {
     bool reversal_may_depend_on_angle = false;
 };
 
-/// \param measurement  ReversalModel::automatic is one reversal of all angles
-Adjusted adjust_and_test(const RotaryTableMeasurement& measurement, const EvaluationOptions& options,
-                         const Progress& progress) {
+/// \param measurement   ReversalModel::automatic is one reversal of all angles
+/// \param start_search  of the measurement, or of one that has another reversal: start values do not depend on it
+Adjusted adjust_and_test(const RotaryTableMeasurement& measurement, StartSearch& start_search,
+                         const EvaluationOptions& options, const Progress& progress) {
     const FixtureComponent fixture_component = measurement.fixture_component;
     const EstimatedComponents estimated{measurement.estimate_length_noise,
                                         measurement.table_repeatability.mode == RepeatabilityMode::estimate,
@@ -839,18 +836,17 @@ Adjusted adjust_and_test(const RotaryTableMeasurement& measurement, const Evalua
     const OutlierOptions& outliers = measurement.outliers;
     const bool snooping = outliers.test == OutlierTest::data_snooping;
 
-    iteration.report("start values");
     const std::vector<bool> all(measurement.lengths.size(), true);
     std::vector<bool> active = all;
     // A length that is off by centimetres carries the solution away, and comes back as a rank defect of another
     // station.
-    const std::vector<std::size_t> gross = find_gross_errors(measurement);
+    const std::vector<std::size_t>& gross = start_search.gross_errors();
     if (!gross.empty() && (!snooping || outliers.action == OutlierAction::report)) {
         refuse_gross_errors(measurement, gross);
     }
     // Two whole visits lost are no single errors: before anything is left out, interrupted beams are looked for.
     if (has_whole_visits(measurement, gross)) {
-        refuse_interrupted_beams(measurement);
+        start_search.refuse_interrupted_beams();
     }
     std::vector<OutlierFinding> found;
     const auto set_aside = [&](std::size_t i) {
@@ -862,7 +858,7 @@ Adjusted adjust_and_test(const RotaryTableMeasurement& measurement, const Evalua
         found.push_back(finding);
     };
     std::ranges::for_each(gross, set_aside);
-    StartValues start = find_start_values(measurement, active);
+    StartValues start = start_search.start_values(active);
     refuse_inclined_fixture(measurement.axis, start.set_up);
     // Error motions about another axis would be large turns: of an inclined fixture the adjustment starts upright.
     RigidMotion start_set_up;
@@ -874,7 +870,7 @@ Adjusted adjust_and_test(const RotaryTableMeasurement& measurement, const Evalua
     }
     // Before the adjustment, which would not converge, or would name parameters that do not show the cause.
     if (const std::optional<gum::Diagnostic> line = stations_on_one_line(start.stations)) {
-        refuse_no_rigid_table(measurement);
+        start_search.refuse_no_rigid_table();
         throw gum::NoResultError(*line);
     }
     JointAdjustment first(measurement, active, start_set_up, start, stochastic);
@@ -888,7 +884,7 @@ Adjusted adjust_and_test(const RotaryTableMeasurement& measurement, const Evalua
     try {
         require_rank(first);
     } catch (const gum::NoResultError&) {
-        refuse_no_rigid_table(measurement);
+        start_search.refuse_no_rigid_table();
         throw;
     }
     iteration.report("joint adjustment");
@@ -1222,9 +1218,9 @@ Adjusted adjust_and_test(const RotaryTableMeasurement& measurement, const Evalua
 }
 
 /// The reversal of all angles, or that of each where the measurement or the distances ask for it.
-RotaryTableSolution adjust_with_reversal(const RotaryTableMeasurement& measurement, const EvaluationOptions& options,
-                                         const Progress& progress) {
-    Adjusted adjusted = adjust_and_test(measurement, options, progress);
+RotaryTableSolution adjust_with_reversal(const RotaryTableMeasurement& measurement, StartSearch& start_search,
+                                         const EvaluationOptions& options, const Progress& progress) {
+    Adjusted adjusted = adjust_and_test(measurement, start_search, options, progress);
     if (!adjusted.reversal_may_depend_on_angle) {
         return std::move(adjusted.solution);
     }
@@ -1235,7 +1231,7 @@ RotaryTableSolution adjust_with_reversal(const RotaryTableMeasurement& measureme
     by_angle.reversal = ReversalModel::by_angle;
     RotaryTableSolution each;
     try {
-        each = adjust_and_test(by_angle, options, progress).solution;
+        each = adjust_and_test(by_angle, start_search, options, progress).solution;
     } catch (const gum::NoResultError&) {
         return std::move(adjusted.solution);  // only asked, not needed
     }
@@ -1258,8 +1254,12 @@ RotaryTableSolution adjust_with_reversal(const RotaryTableMeasurement& measureme
 RotaryTableSolution evaluate_jointly(const RotaryTableMeasurement& measurement, const EvaluationOptions& options,
                                      const Progress& progress) {
     require_enough_angles(measurement);
+    if (progress) {
+        progress("start values");
+    }
+    StartSearch start_search(measurement);
     try {
-        return adjust_with_reversal(measurement, options, progress);
+        return adjust_with_reversal(measurement, start_search, options, progress);
     } catch (const gum::NoResultError& error) {
         // Wrong labels and an interrupted beam look like a station whose place is open, like one that fits no table, like
         // an adjustment that goes astray, or like a table that nobody has.
@@ -1267,8 +1267,8 @@ RotaryTableSolution evaluate_jointly(const RotaryTableMeasurement& measurement, 
                 return problem.code == "GC-ADJUST-0005" || problem.code == "GC-ADJUST-0015" ||
                        problem.code == "GC-RANK-0001" || problem.code == "GC-VARIANCE-0008";
             })) {
-            refuse_wrong_labels(measurement);
-            refuse_interrupted_beams(measurement);
+            start_search.refuse_wrong_labels();
+            start_search.refuse_interrupted_beams();
         }
         throw;
     }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "engine/median.h"
@@ -19,41 +20,47 @@ constexpr double k_set_up_offset = 5.0 * gum::k_millimetre;
 constexpr double k_set_up_tilt = gum::k_degree;
 constexpr double k_typical_deviation = gum::k_micrometre;  // against which the prior is weighed
 
-/// Deviations with weights of Cauchy's function for the scale c, centred by their weighted means.
-struct Weighted {
-    Eigen::VectorXd deviation;
-    Eigen::VectorXd weight;
-    double cost = 0.0;
-};
+/// Weight of Cauchy's function for the scale c. It falls with the square of a deviation: a length that is wrong by a metre has
+/// no pull left.
+double weight_of(double deviation, double c) {
+    const double ratio = deviation / c;
+    return 1.0 / (1.0 + ratio * ratio);
+}
 
-Weighted weigh(const StationDistances& data, Eigen::VectorXd deviation, double c) {
-    Weighted result;
-    result.weight.resize(deviation.size());
-    // Weights of Cauchy fall with the square of a deviation: a length that is wrong by a metre has no pull left.
-    // Weights and weighted centres depend on each other, so that both are made three times.
-    for (int round = 0; round < 3; ++round) {
-        for (const std::vector<Eigen::Index>& members : data.members) {
+/// Deviations centred by their weighted means, path by path. Weights and weighted centres depend on each other, so that both
+/// are made again.
+Eigen::VectorXd centred(const StationDistances& data, Eigen::VectorXd deviation, double c) {
+    for (const std::vector<Eigen::Index>& members : data.members) {
+        for (int round = 0; round < 2; ++round) {
             double sum = 0.0;
             double weights = 0.0;
             for (const Eigen::Index i : members) {
-                const double ratio = deviation[i] / c;
-                result.weight[i] = 1.0 / (1.0 + ratio * ratio);
-                sum += result.weight[i] * deviation[i];
-                weights += result.weight[i];
+                const double weight = weight_of(deviation[i], c);
+                sum += weight * deviation[i];
+                weights += weight;
             }
-            if (round < 2) {
-                for (const Eigen::Index i : members) {
-                    deviation[i] -= sum / weights;
-                }
+            const double centre = sum / weights;
+            for (const Eigen::Index i : members) {
+                deviation[i] -= centre;
             }
         }
     }
-    for (Eigen::Index i = 0; i < deviation.size(); ++i) {
-        const double ratio = deviation[i] / c;
-        result.cost += std::log1p(ratio * ratio);
+    return deviation;
+}
+
+/// Cost of centred deviations, or some value that is above it as soon as it and what there is already are above `most`: then
+/// the rest of the deviations does not matter.
+double cost_of(const Eigen::VectorXd& deviation, double c, double already = 0.0,
+               double most = std::numeric_limits<double>::infinity()) {
+    double cost = 0.0;
+    for (const double one : deviation) {
+        const double ratio = one / c;
+        cost += std::log1p(ratio * ratio);
+        if (already + cost > most) {
+            break;
+        }
     }
-    result.deviation = std::move(deviation);
-    return result;
+    return cost;
 }
 
 /// Steps that a set-up and stations take before they are near, in units of which plain least squares are damped
@@ -87,10 +94,10 @@ void descend(const ObservedStations& observed, const std::vector<std::size_t>& o
     std::vector<PointPositions> at(of.size());
     std::vector<Eigen::VectorXd> raw(of.size());
     std::vector<double> values;
-    const auto evaluate = [&](const Eigen::Vector4d& with, const std::vector<StationFit>& where, bool derivatives) {
+    const auto evaluate = [&](const Eigen::Vector4d& with, const std::vector<StationFit>& where, bool new_set_up) {
         for (std::size_t k = 0; k < of.size(); ++k) {
-            if (free_set_up || derivatives) {
-                at[k] = observed.positions(of[k], with, derivatives);
+            if (new_set_up) {
+                observed.locate(of[k], with, at[k]);
             }
             raw[k] = deviations_from(stations[of[k]], at[k].point, where[of[k]].position).each;
         }
@@ -120,17 +127,24 @@ void descend(const ObservedStations& observed, const std::vector<std::size_t>& o
     Eigen::MatrixXd normal(size, size);
     Eigen::VectorXd right(size);
     std::vector<StationFit> trial = fits;
+    // Positions and deviations are those of the present set-up and places at the beginning of every step.
+    evaluate(set_up, fits, true);
     for (int step = 0; step < k_steps; ++step) {
-        evaluate(set_up, fits, true);
+        for (std::size_t k = 0; k < of.size(); ++k) {
+            if (free_set_up || step == 0) {
+                observed.derive(of[k], set_up, at[k]);
+            }
+        }
         const double c = scale_of();
         normal.setZero();
         right.setZero();
         double cost = prior(set_up, c);
         for (std::size_t k = 0; k < of.size(); ++k) {
             const StationDistances& data = stations[of[k]];
-            const Weighted weighted = weigh(data, raw[k], c);
-            cost += weighted.cost;
-            Eigen::Matrix<double, Eigen::Dynamic, 7, Eigen::RowMajor> rows(weighted.deviation.size(), 7);
+            const Eigen::VectorXd deviation = centred(data, raw[k], c);
+            const Eigen::VectorXd weight = deviation.unaryExpr([c](double one) { return weight_of(one, c); });
+            cost += cost_of(deviation, c);
+            Eigen::Matrix<double, Eigen::Dynamic, 7, Eigen::RowMajor> rows(deviation.size(), 7);
             for (Eigen::Index i = 0; i < rows.rows(); ++i) {
                 const auto index = static_cast<std::size_t>(i);
                 const Eigen::Vector3d direction = (at[k].point[index] - fits[of[k]].position).normalized();
@@ -143,8 +157,8 @@ void descend(const ObservedStations& observed, const std::vector<std::size_t>& o
                 Eigen::Matrix<double, 1, 7> mean = Eigen::Matrix<double, 1, 7>::Zero();
                 double weights = 0.0;
                 for (const Eigen::Index i : members) {
-                    mean += weighted.weight[i] * rows.row(i);
-                    weights += weighted.weight[i];
+                    mean += weight[i] * rows.row(i);
+                    weights += weight[i];
                 }
                 mean /= weights;
                 for (const Eigen::Index i : members) {
@@ -152,9 +166,8 @@ void descend(const ObservedStations& observed, const std::vector<std::size_t>& o
                 }
             }
             const auto from = static_cast<Eigen::Index>(4 + 3 * k);
-            const Eigen::Matrix<double, 7, 7> part = rows.transpose() * weighted.weight.asDiagonal() * rows / (c * c);
-            const Eigen::Matrix<double, 7, 1> gradient =
-                rows.transpose() * weighted.weight.cwiseProduct(weighted.deviation) / (c * c);
+            const Eigen::Matrix<double, 7, 7> part = rows.transpose() * weight.asDiagonal() * rows / (c * c);
+            const Eigen::Matrix<double, 7, 1> gradient = rows.transpose() * weight.cwiseProduct(deviation) / (c * c);
             normal.topLeftCorner<4, 4>() += part.topLeftCorner<4, 4>();
             normal.block<3, 3>(from, from) = part.bottomRightCorner<3, 3>();
             normal.block<3, 4>(from, 0) = part.bottomLeftCorner<3, 4>();
@@ -182,6 +195,8 @@ void descend(const ObservedStations& observed, const std::vector<std::size_t>& o
         const double unit = plain ? scaled.trace() : 1.0;
         bool better = false;
         double largest = 0.0;
+        // At exact data the cost is rounding, and rounding must not look like a step in the wrong direction.
+        const double most = cost * (1.0 + 1e-9);
         while (damping < 1e8) {
             Eigen::MatrixXd damped = scaled;
             damped.diagonal().array() += damping * unit;
@@ -195,14 +210,13 @@ void descend(const ObservedStations& observed, const std::vector<std::size_t>& o
             // A step of many metres or radians leads nowhere: it is damped before anything is evaluated.
             if (change.allFinite() && largest < 5.0 &&
                 (!plain || change.cwiseQuotient(scale).norm() < k_most_usual_steps)) {
-                evaluate(next, trial, false);
+                evaluate(next, trial, free_set_up);
                 after = prior(next, c);
-                for (std::size_t k = 0; k < of.size(); ++k) {
-                    after += weigh(stations[of[k]], raw[k], c).cost;
+                for (std::size_t k = 0; k < of.size() && !(after > most); ++k) {
+                    after += cost_of(centred(stations[of[k]], raw[k], c), c, after, most);
                 }
             }
-            // At exact data the cost is rounding, and rounding must not look like a step in the wrong direction.
-            if (after <= cost * (1.0 + 1e-9)) {
+            if (after <= most) {
                 better = true;
                 set_up = next;
                 for (const std::size_t j : of) {
