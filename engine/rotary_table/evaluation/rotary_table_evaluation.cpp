@@ -1269,6 +1269,8 @@ RotaryTableSolution evaluate_jointly(const RotaryTableMeasurement& measurement, 
             })) {
             start_search.refuse_wrong_labels();
             start_search.refuse_interrupted_beams();
+            // Neither what is open nor how far an adjustment came says anything of distances that fit no place.
+            start_search.refuse_no_rigid_table();
         }
         throw;
     }

@@ -348,21 +348,18 @@ TEST(PlantedBlunders, LengthsOfOneStationInAnotherUnitEndInWords) {
     }
 }
 
-// What no label explains is no statement on the layout: these reflectors form no plane and no cone.
+// What no label explains is no statement on the layout: these reflectors form no plane and no cone, and their home angle is
+// determined. One cause is that no place is found, one that the adjustment has open directions, one that it goes astray.
 TEST(PlantedBlunders, DistancesOfNoRigidTableSayNothingOfTheLayout) {
-    int told = 0;
-    for (const double factor : {-1.37, -0.7, 3.7, 0.3, 60.0}) {
-        RotaryTableMeasurement m = synthetic::sound_campaign(5).measurement;
+    for (const double factor : {-1.37, -0.7, 0.3}) {
+        RotaryTableMeasurement m = synthetic::sound_campaign(5, 12).measurement;
         for (LengthObservation& length : m.lengths) {
             length.length *= factor;
         }
         const std::string message = refusal(m);
-        EXPECT_EQ(message.find("cone about one line"), std::string::npos) << factor << ": " << message;
-        EXPECT_EQ(message.find("plane across the axis"), std::string::npos) << factor << ": " << message;
-        EXPECT_EQ(message.find("on one line"), std::string::npos) << factor << ": " << message;
-        told += message.find("fit no rigid table that turns by the stated angles") != std::string::npos ? 1 : 0;
+        EXPECT_NE(message.find("fit no rigid table that turns by the stated angles"), std::string::npos)
+            << factor << ": " << message;
     }
-    EXPECT_GE(told, 1);
 }
 
 // Axial motions that grow with the angle: from 0.1° over all angles on they are told, from 1° on refused.

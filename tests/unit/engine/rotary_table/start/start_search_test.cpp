@@ -53,9 +53,13 @@ std::string told(const std::vector<gum::Diagnostic>& problems) {
 
 // What the first question has tried for nothing the later ones do not try again: they say the same.
 TEST(StartSearch, LaterQuestionsSayWhatTheySayAlone) {
-    const RotaryTableMeasurement sound = simulate(synthetic::small_plan()).measurement;
-    RotaryTableMeasurement no_table = sound;  // no label explains one station
-    RotaryTableMeasurement later = sound;     // that of another one is found by the second question alone
+    synthetic::CampaignPlan plan = synthetic::small_plan();
+    plan.angles_deg = synthetic::full_turn(6);
+    plan.stations.resize(4);
+    plan.reflectors.resize(4);
+    const RotaryTableMeasurement sound = simulate(plan).measurement;
+    RotaryTableMeasurement no_table = sound;  // no label explains one station, which both questions ask
+    RotaryTableMeasurement later = sound;     // nor one that the second question alone asks
     for (std::size_t i = 0; i < sound.lengths.size(); ++i) {
         no_table.lengths[i].length *= sound.lengths[i].station == 2 ? 0.3 : 1.0;
         const bool half = sound.lengths[i].station == 2 && sound.lengths[i].angle % 2 == 0;
@@ -67,12 +71,10 @@ TEST(StartSearch, LaterQuestionsSayWhatTheySayAlone) {
             return told(synthetic::problems_of([&] { ask(search); }));
         };
         const auto labels = [](StartSearch& search) { search.refuse_wrong_labels(); };
-        const auto table = [](StartSearch& search) { search.refuse_no_rigid_table(); };
+        const auto table = [](const StartSearch& search) { search.refuse_no_rigid_table(); };
         StartSearch search(*measurement);
-        const std::string first = told(synthetic::problems_of([&] { (void)search.gross_errors(); }));
-        EXPECT_EQ(first, alone([](StartSearch& fresh) { (void)fresh.gross_errors(); }));
+        (void)synthetic::problems_of([&] { (void)search.gross_errors(); });
         EXPECT_EQ(told(synthetic::problems_of([&] { table(search); })), alone(table));
-        EXPECT_EQ(told(synthetic::problems_of([&] { labels(search); })), alone(labels));
         EXPECT_EQ(told(synthetic::problems_of([&] { labels(search); })), alone(labels));
     }
 }
