@@ -19,6 +19,11 @@ namespace {
 constexpr double k_set_up_offset = 5.0 * gum::k_millimetre;
 constexpr double k_set_up_tilt = gum::k_degree;
 constexpr double k_typical_deviation = gum::k_micrometre;  // against which the prior is weighed
+// Of the strong prior, weighed against what error motions leave.
+constexpr double k_rough_deviation = 10.0 * gum::k_micrometre;
+constexpr double k_rough_offset = 20.0 * gum::k_millimetre;
+constexpr double k_rough_tilt = 5.0 * gum::k_degree;
+constexpr double k_reach = 2.0;  // [m], of a station from the middle of its points
 
 /// Weight of Cauchy's function for the scale c. It falls with the square of a deviation: a length that is wrong by a metre has
 /// no pull left.
@@ -84,7 +89,7 @@ bool StationFit::is_settled() const {
 }
 
 void descend(const ObservedStations& observed, const std::vector<std::size_t>& of, Eigen::Vector4d& set_up,
-             std::vector<StationFit>& fits, bool free_set_up, double step_tolerance, Pull pull) {
+             std::vector<StationFit>& fits, bool free_set_up, double step_tolerance, Pull pull, Prior knowledge) {
     constexpr int k_steps = 60;
     constexpr double k_most_usual_steps = 6.0;  // at once
     const std::vector<StationDistances>& stations = observed.stations();
@@ -118,17 +123,32 @@ void descend(const ObservedStations& observed, const std::vector<std::size_t>& o
         }
         return std::max(2.5 * k_mad_to_deviation * median(values), 1e-9);
     };
-    // Weak beside any distance: it only decides what they leave open (k_set_up_offset).
-    const auto prior = [&](const Eigen::Vector4d& with, double c) {
-        return std::pow(k_typical_deviation / c, 2) *
-               (with.head<2>().squaredNorm() / (k_set_up_offset * k_set_up_offset) +
-                with.tail<2>().squaredNorm() / (k_set_up_tilt * k_set_up_tilt));
+    const bool strong = knowledge == Prior::strong;
+    std::vector<Eigen::Vector3d> middle(of.size(), Eigen::Vector3d::Zero());  // of the points of each station
+    // The weak one is weak beside any distance: it only decides what they leave open (k_set_up_offset).
+    const auto prior = [&](const Eigen::Vector4d& with, const std::vector<StationFit>& where, double c) {
+        if (!strong) {
+            return std::pow(k_typical_deviation / c, 2) *
+                   (with.head<2>().squaredNorm() / (k_set_up_offset * k_set_up_offset) +
+                    with.tail<2>().squaredNorm() / (k_set_up_tilt * k_set_up_tilt));
+        }
+        double squares = with.head<2>().squaredNorm() / (k_rough_offset * k_rough_offset) +
+                         with.tail<2>().squaredNorm() / (k_rough_tilt * k_rough_tilt);
+        for (std::size_t k = 0; k < of.size(); ++k) {
+            squares += (where[of[k]].position - middle[k]).squaredNorm() / (k_reach * k_reach);
+        }
+        return std::pow(k_rough_deviation / c, 2) * squares;
     };
     Eigen::MatrixXd normal(size, size);
     Eigen::VectorXd right(size);
     std::vector<StationFit> trial = fits;
     // Positions and deviations are those of the present set-up and places at the beginning of every step.
     evaluate(set_up, fits, true);
+    for (std::size_t k = 0; k < of.size() && strong; ++k) {
+        for (const Eigen::Vector3d& point : at[k].point) {
+            middle[k] += point / static_cast<double>(at[k].point.size());
+        }
+    }
     for (int step = 0; step < k_steps; ++step) {
         for (std::size_t k = 0; k < of.size(); ++k) {
             if (free_set_up || step == 0) {
@@ -138,7 +158,7 @@ void descend(const ObservedStations& observed, const std::vector<std::size_t>& o
         const double c = scale_of();
         normal.setZero();
         right.setZero();
-        double cost = prior(set_up, c);
+        double cost = prior(set_up, fits, c);
         for (std::size_t k = 0; k < of.size(); ++k) {
             const StationDistances& data = stations[of[k]];
             const Eigen::VectorXd deviation = centred(data, raw[k], c);
@@ -174,10 +194,17 @@ void descend(const ObservedStations& observed, const std::vector<std::size_t>& o
             normal.block<4, 3>(0, from) = part.topRightCorner<4, 3>();
             right.head<4>() -= gradient.head<4>();
             right.segment<3>(from) = -gradient.tail<3>();
+            if (strong) {
+                const double weight_of_reach = std::pow(k_rough_deviation / (c * k_reach), 2);
+                normal.diagonal().segment<3>(from).array() += weight_of_reach;
+                right.segment<3>(from) += weight_of_reach * (middle[k] - fits[of[k]].position);
+            }
         }
         for (Eigen::Index z = 0; z < 4; ++z) {
             const double width = z < 2 ? k_set_up_offset : k_set_up_tilt;
-            const double weight = std::pow(k_typical_deviation / (c * width), 2);
+            const double weight = strong
+                                      ? std::pow(k_rough_deviation / (c * (z < 2 ? k_rough_offset : k_rough_tilt)), 2)
+                                      : std::pow(k_typical_deviation / (c * width), 2);
             normal(z, z) += weight;
             right[z] -= weight * set_up[z];
             // Rows and columns of a held set-up become those of the identity: the system keeps its size.
@@ -211,7 +238,7 @@ void descend(const ObservedStations& observed, const std::vector<std::size_t>& o
             if (change.allFinite() && largest < 5.0 &&
                 (!plain || change.cwiseQuotient(scale).norm() < k_most_usual_steps)) {
                 evaluate(next, trial, free_set_up);
-                after = prior(next, c);
+                after = prior(next, trial, c);
                 for (std::size_t k = 0; k < of.size() && !(after > most); ++k) {
                     after += cost_of(centred(stations[of[k]], raw[k], c), c, after, most);
                 }
@@ -237,15 +264,15 @@ void descend(const ObservedStations& observed, const std::vector<std::size_t>& o
 }
 
 StationFit refined(const ObservedStations& observed, std::size_t station, const Eigen::Vector3d& from,
-                   const Eigen::Vector4d& set_up, bool free_set_up, Pull pull) {
+                   const Eigen::Vector4d& set_up, bool free_set_up, Pull pull, Prior knowledge) {
     std::vector<StationFit> fits(observed.stations().size());
     fits[station].position = from;
     Eigen::Vector4d own = set_up;
     const double tolerance = free_set_up ? k_coarse_step : k_fine_step;
     if (pull == Pull::of_all) {
-        descend(observed, {station}, own, fits, free_set_up, tolerance, Pull::of_all);
+        descend(observed, {station}, own, fits, free_set_up, tolerance, Pull::of_all, knowledge);
     }
-    descend(observed, {station}, own, fits, free_set_up, tolerance);
+    descend(observed, {station}, own, fits, free_set_up, tolerance, Pull::of_those_that_agree, knowledge);
     fits[station].set_up = own;
     return fits[station];
 }

@@ -23,9 +23,7 @@ struct StartSearch::Found {
     /// All stations with one set-up, from where each was found on its own, the places that are open settled.
     [[nodiscard]] const CommonFit& together() {
         if (!settled) {
-            CommonFit all = fit_together(search.observed(), alone);
-            settle_open_places(search.observed(), all);
-            settled = std::move(all);
+            settled = settled_places(search.observed(), alone);
         }
         return *settled;
     }

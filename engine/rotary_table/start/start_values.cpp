@@ -11,9 +11,7 @@ namespace gumcert::engine {
 StartValues find_start_values(const RotaryTableMeasurement& measurement, const std::vector<bool>& active) {
     const PlaceSearch search(measurement, active);
     const ObservedStations& observed = search.observed();
-    CommonFit found = fit_together(observed, search.fit_each());
-    settle_open_places(observed, found);
-    return start_values_of(observed, found);
+    return start_values_of(observed, settled_places(observed, search.fit_each()));
 }
 
 StartValues start_values_of(const ObservedStations& observed, const CommonFit& found) {
