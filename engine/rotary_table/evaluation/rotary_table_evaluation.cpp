@@ -462,54 +462,93 @@ StochasticModel variances_without(const GroupTest& group, const JointAdjustment&
     return stochastic;
 }
 
-/// Groups of a measurement of which a station has a scale error: how large it is, and what else is suspicious, from the
-/// distances without it. An error of many ppm moves the temperature of the fixture at the station so far from what is stated
-/// that the linearised tests are not those of the measurement.
-GroupTests without_scale_error(GroupTests groups, const JointAdjustment& adjustment, const StochasticModel& stochastic,
-                               const EvaluationOptions& options, const GroupTestOptions& group_options) {
+/// A measurement of which the scale errors of some stations are taken off.
+struct WithoutScaleErrors {
+    Eigen::VectorXd errors;  ///< of each station
+    GroupTests groups;       ///< of the distances without them
+};
+
+/// \param told  stations and their errors, from where the search begins
+WithoutScaleErrors without_scale_errors_of(const std::vector<GroupTest>& told, const JointAdjustment& adjustment,
+                                           const StochasticModel& stochastic, const EvaluationOptions& options,
+                                           const GroupTestOptions& group_options) {
     constexpr int k_most_corrections = 8;
     constexpr double k_settled = 1e-3;  // of the error: it is told with three digits
+    const auto count = std::ssize(told);
+    std::vector<std::size_t> stations;
+    Eigen::VectorXd error(count);
+    for (Eigen::Index k = 0; k < count; ++k) {
+        stations.push_back(told[static_cast<std::size_t>(k)].station);
+        error[k] = told[static_cast<std::size_t>(k)].estimate;
+    }
+    Eigen::VectorXd change = error;
+    Eigen::VectorXd before = Eigen::VectorXd::Zero(count);  // the errors that were corrected then, and what was left
+    Eigen::VectorXd left_before = error;
+    RotaryTableMeasurement corrected = adjustment.measurement();
+    std::optional<JointAdjustment> without;
+    std::optional<NormalEquations> normal;
+    for (int k = 0; k < k_most_corrections && (change.array().abs() > k_settled * error.array().abs()).any(); ++k) {
+        for (std::size_t i = 0; i < corrected.lengths.size(); ++i) {
+            LengthObservation& length = corrected.lengths[i];
+            const auto of = std::ranges::find(stations, length.station);
+            if (of != stations.end()) {
+                length.length = adjustment.measurement().lengths[i].length / (1.0 + error[of - stations.begin()]);
+            }
+        }
+        without.emplace(corrected, adjustment.active(), adjustment.set_up(), adjustment.present_values(), stochastic);
+        without->adjustment().set_workers(options.workers);
+        // Not from where the error has led the temperatures.
+        require_convergence(without->adjustment().solve(options.solver));
+        without->set_weights(stochastic);
+        require_convergence(without->adjustment().refine(options.solver));
+        normal.emplace(without->adjustment().linearise());
+        const Eigen::VectorXd left =
+            scale_errors_of_stations(*without, *normal, normal->bordered_covariance(), stations);
+        for (Eigen::Index j = 0; j < count; ++j) {
+            // A secant: what a large error is told as is up to twice as large.
+            change[j] =
+                left_before[j] != left[j] ? left[j] * (error[j] - before[j]) / (left_before[j] - left[j]) : left[j];
+            before[j] = std::exchange(error[j], error[j] + change[j]);
+            left_before[j] = left[j];
+        }
+    }
+    return {error, test_groups(*without, *normal, normal->bordered_covariance(), group_options)};
+}
+
+/// Groups of a measurement of which stations have scale errors: how large they are, and what else is suspicious, from the
+/// distances without them. An error of many ppm moves the temperature of the fixture at the station so far from what is stated
+/// that the linearised tests are not those of the measurement, and the scale of a second station is told as another cause.
+GroupTests without_scale_errors(GroupTests groups, const JointAdjustment& adjustment, const StochasticModel& stochastic,
+                                const EvaluationOptions& options, const GroupTestOptions& group_options) {
     if (groups.tests.empty() || !groups.tests.front().suspicious ||
         groups.tests.front().kind != GroupKind::station_scale) {
         return groups;
     }
-    GroupTest told = groups.tests.front();
+    std::vector<GroupTest> told{groups.tests.front()};
+    const std::size_t most = adjustment.measurement().stations.size() / 2;  // of more it is the others that are wrong
     try {
-        RotaryTableMeasurement corrected = adjustment.measurement();
-        std::optional<JointAdjustment> without;
-        double error = told.estimate;
-        double change = error;
-        double before = 0.0;  // the error that was corrected then, and what was left
-        double left_before = error;
-        std::optional<NormalEquations> normal;
-        for (int k = 0; k < k_most_corrections && std::abs(change) > k_settled * std::abs(error); ++k) {
-            for (std::size_t i = 0; i < corrected.lengths.size(); ++i) {
-                LengthObservation& length = corrected.lengths[i];
-                if (length.station == told.station) {
-                    length.length = adjustment.measurement().lengths[i].length / (1.0 + error);
-                }
+        for (std::size_t round = 0; round < std::max<std::size_t>(most, 1); ++round) {
+            WithoutScaleErrors without = without_scale_errors_of(told, adjustment, stochastic, options, group_options);
+            for (std::size_t k = 0; k < told.size(); ++k) {
+                told[k].estimate = without.errors[static_cast<Eigen::Index>(k)];
             }
-            without.emplace(corrected, adjustment.active(), adjustment.set_up(), adjustment.present_values(),
-                            stochastic);
-            without->adjustment().set_workers(options.workers);
-            // Not from where the error has led the temperatures.
-            require_convergence(without->adjustment().solve(options.solver));
-            without->set_weights(stochastic);
-            require_convergence(without->adjustment().refine(options.solver));
-            normal.emplace(without->adjustment().linearise());
-            const double left = scale_error_of_station(*without, *normal, normal->bordered_covariance(), told.station);
-            // A secant: what a large error is told as is up to twice as large.
-            change = left_before != left ? left * (error - before) / (left_before - left) : left;
-            before = std::exchange(error, error + change);
-            left_before = left;
+            const auto next = std::ranges::find_if(without.groups.tests, [&](const GroupTest& test) {
+                return test.suspicious && test.kind == GroupKind::station_scale &&
+                       std::ranges::find(told, test.station, &GroupTest::station) == told.end();
+            });
+            if (next != without.groups.tests.end() && told.size() < most) {
+                told.push_back(*next);
+                continue;
+            }
+            std::vector<GroupTest>& others = without.groups.tests;
+            std::erase_if(others, [&](const GroupTest& test) {
+                return test.kind == GroupKind::station_scale &&
+                       (!test.suspicious || std::ranges::find(told, test.station, &GroupTest::station) != told.end());
+            });
+            others.insert(others.begin(), told.begin(), told.end());
+            groups.tests = std::move(others);
+            return groups;
         }
-        told.estimate = error;
-        GroupTests others = test_groups(*without, *normal, normal->bordered_covariance(), group_options);
-        std::erase_if(others.tests, [&](const GroupTest& test) {
-            return test.kind == GroupKind::station_scale && (!test.suspicious || test.station == told.station);
-        });
-        others.tests.insert(others.tests.begin(), told);
-        groups.tests = std::move(others.tests);
     } catch (const gum::NoResultError&) {
         return groups;  // a check, which the result does not need
     }
@@ -522,8 +561,8 @@ GroupTests groups_of(const JointAdjustment& adjustment, const NormalEquations& n
                      const BorderedCovariance& covariance, const EstimatedComponents& estimated,
                      const StochasticModel& stochastic, const EvaluationOptions& options,
                      const GroupTestOptions& group_options) {
-    GroupTests groups = without_scale_error(test_groups(adjustment, normal, covariance, group_options), adjustment,
-                                            stochastic, options, group_options);
+    GroupTests groups = without_scale_errors(test_groups(adjustment, normal, covariance, group_options), adjustment,
+                                             stochastic, options, group_options);
     const GroupTest* const near = nearly_suspicious(groups, group_options);
     const bool told = std::ranges::any_of(groups.tests, &GroupTest::suspicious);
     if (told || near == nullptr || !(estimated.length || estimated.table)) {

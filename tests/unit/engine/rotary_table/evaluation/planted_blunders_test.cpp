@@ -654,6 +654,28 @@ TEST(PlantedBlunders, AScaleOfOneStationIsNamed) {
     }
 }
 
+/// Of two stations each has its own size: that of the second was told half as large, or other causes in its place.
+TEST(PlantedBlunders, ScalesOfTwoStationsAreNamedWithTheirSizes) {
+    for (const auto& [first_size, second_size] :
+         {std::pair{20e-6, 20e-6}, std::pair{20e-6, -20e-6}, std::pair{100e-6, -30e-6}, std::pair{300e-6, 250e-6}}) {
+        const synthetic::Campaign sound = synthetic::sound_campaign(2, 12);
+        RotaryTableMeasurement m = sound.measurement;
+        synthetic::planting::scale_station(m, 1, first_size);
+        synthetic::planting::scale_station(m, 4, second_size);
+        SCOPED_TRACE(std::to_string(1e6 * first_size) + ", " + std::to_string(1e6 * second_size) + " ppm");
+        std::size_t named = 0;
+        for (const GroupTest& test : evaluated(m).groups->tests) {
+            if (test.suspicious) {
+                ASSERT_EQ(test.kind, GroupKind::station_scale);
+                ASSERT_TRUE(test.station == 1 || test.station == 4);
+                EXPECT_NEAR(test.estimate / (test.station == 1 ? first_size : second_size), 1.0, 0.1);
+                ++named;
+            }
+        }
+        EXPECT_EQ(named, 2U);
+    }
+}
+
 /// Single blunders, one in fifty, are left out: no visit, station or pair is accused in their place.
 TEST(PlantedBlunders, SingleOutliersAccuseNoGroup) {
     int accused = 0;

@@ -137,6 +137,28 @@ TEST(OpenPlaces, WhatSeemsOpenAtAFalsePlaceIsLookedForWithinReach) {
     EXPECT_GE(open, 1);
 }
 
+// Five angles close together do not tell the sides of the stations: a refusal, and never the false side.
+TEST(OpenPlaces, NoFalseSideIsTakenWithinReach) {
+    for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+        CampaignPlan plan = few_reflectors(seed);
+        plan.angles_deg = {0.0, 257.0, 269.0, 310.0, 358.0};
+        plan.stations = {{0.97, 0.74, 0.51},   {0.26, 1.45, 0.47}, {0.38, 1.04, -0.56}, {1.04, -0.60, -0.39},
+                         {0.35, -1.36, -0.50}, {1.17, 0.71, 0.22}, {0.48, -0.52, 0.71}, {1.40, -1.30, 0.32}};
+        plan.reflectors = {{0.056, 0.12, 0.0}, {0.077, -0.06, 0.104}, {0.056, -0.06, -0.104}};
+        plan.offset = {4.5e-3, -6.6e-3};
+        const Campaign campaign = simulate(plan);
+        const PlaceSearch search(campaign.measurement);
+        try {
+            const CommonFit found = settled_places(search.observed(), search.fit_each());
+            for (std::size_t j = 0; j < 8; ++j) {
+                EXPECT_LT((found.stations[j].position - campaign.truth.stations[j]).norm(), 0.3) << seed << ", " << j;
+            }
+        } catch (const gum::NoResultError& error) {
+            EXPECT_EQ(error.diagnostics().front().code, "GC-RANK-0001");
+        }
+    }
+}
+
 TEST(OpenPlaces, AUsualLayoutHasNone) {
     const Campaign campaign = simulate(synthetic::small_plan());
     const PlaceSearch search(campaign.measurement);
