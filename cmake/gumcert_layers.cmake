@@ -233,6 +233,8 @@ set(GUMCERT_PRIVATE_HEADERS archive/store/postgresql_connection.h archive/store/
                             archive/store/sqlite_schema.h archive/store/sqlite_statement.h
                             engine/rotary_table/start/candidate_places.h engine/rotary_table/start/closed_solution.h
                             engine/rotary_table/start/common_set_up.h engine/rotary_table/start/fit_limits.h
+                            engine/rotary_table/start/gross_errors.h engine/rotary_table/start/interrupted_beams.h
+                            engine/rotary_table/start/no_rigid_table.h engine/rotary_table/start/wrong_labels.h
                             engine/rotary_table/start/label_hypothesis.h engine/rotary_table/start/labels_of_station.h
                             engine/rotary_table/start/labels_of_visits.h engine/rotary_table/start/millimetres_text.h
                             engine/rotary_table/start/observed_stations.h engine/rotary_table/start/open_places.h

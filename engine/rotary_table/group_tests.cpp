@@ -1328,12 +1328,27 @@ double share_of_level(GroupKind kind) {
     return 0.0;
 }
 
-double scale_error_of_station(const JointAdjustment& adjustment, const NormalEquations& normal,
-                              const BorderedCovariance& covariance, std::size_t station) {
+Eigen::VectorXd scale_errors_of_stations(const JointAdjustment& adjustment, const NormalEquations& normal,
+                                         const BorderedCovariance& covariance,
+                                         const std::vector<std::size_t>& stations) {
     const VisitEffects visits(adjustment, normal, covariance);
-    const VisitEffects::Projection projection = visits.projection(effect_of_scale(adjustment, visits, station), 1);
-    const double spread = projection.spread(0, 0);
-    return spread > k_controlled * projection.weight ? projection.weighted[0] / spread : 0.0;
+    const Index count = std::ssize(stations);
+    VisitEffects::Effect effect(visits.size());
+    for (Index k = 0; k < count; ++k) {
+        const VisitEffects::Effect own = effect_of_scale(adjustment, visits, stations[static_cast<std::size_t>(k)]);
+        for (std::size_t g = 0; g < own.size(); ++g) {
+            if (own[g].size() > 0) {
+                effect[g] = MatrixXd::Zero(own[g].rows(), count);
+                effect[g].col(k) = own[g];
+            }
+        }
+    }
+    const VisitEffects::Projection projection = visits.projection(effect, static_cast<int>(count));
+    if (count == 1) {
+        const double spread = projection.spread(0, 0);
+        return VectorXd::Constant(1, spread > k_controlled * projection.weight ? projection.weighted[0] / spread : 0.0);
+    }
+    return pseudo_inverse(projection.spread, k_controlled * projection.weight).inverse * projection.weighted;
 }
 
 GroupTests test_groups(const JointAdjustment& adjustment, const NormalEquations& normal,

@@ -117,9 +117,10 @@ struct GroupTestOptions {
 [[nodiscard]] GroupTests test_groups(const JointAdjustment& adjustment, const NormalEquations& normal,
                                      const BorderedCovariance& covariance, const GroupTestOptions& options);
 
-/// By how much, relatively, all distances of a station are too long beside those of the others: GroupTest::estimate of
-/// GroupKind::station_scale.
-[[nodiscard]] double scale_error_of_station(const JointAdjustment& adjustment, const NormalEquations& normal,
-                                            const BorderedCovariance& covariance, std::size_t station);
+/// By how much, relatively, all distances of each of some stations are too long beside those of the others, jointly; of one
+/// alone GroupTest::estimate of GroupKind::station_scale. 0 of what the others do not control.
+[[nodiscard]] Eigen::VectorXd scale_errors_of_stations(const JointAdjustment& adjustment, const NormalEquations& normal,
+                                                       const BorderedCovariance& covariance,
+                                                       const std::vector<std::size_t>& stations);
 
 }  // namespace gumcert::engine

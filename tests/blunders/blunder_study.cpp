@@ -69,6 +69,11 @@ std::optional<GroupKind> kind_of(Blunder blunder) {
             return GroupKind::reflector;
         case Blunder::hot_fixture:
             return GroupKind::fixture_scale;
+        case Blunder::moved_fixture:
+            return GroupKind::fixture_place;
+        case Blunder::scale_of_station:
+        case Blunder::scale_of_two:
+            return GroupKind::station_scale;
         default:
             return std::nullopt;
     }
@@ -119,7 +124,8 @@ std::optional<Detectable> detectable(const synthetic::Planted& planted, Blunder 
 struct Tally {
     int named = 0, warned = 0, refused = 0, silent = 0;
     int silent_above = 0;         ///< larger than what is found nearly always
-    double largest_silent = 0.0;  ///< [m]
+    double largest_silent = 0.0;  ///< [m], of a scale [1]
+    const char* unit = "µm";      ///< of a millionth of it
     std::vector<Detectable> detectables;
 };
 
@@ -185,7 +191,8 @@ void print_detectable(const std::vector<std::pair<const char*, Tally>>& tallies)
     }
     for (const auto& [name, tally] : tallies) {
         if (tally.detectables.empty() && tally.largest_silent > 0.0) {
-            std::printf("\nThe largest %s of which nothing is told: %.2f µm.\n", name, 1e6 * tally.largest_silent);
+            std::printf("\nThe largest %s of which nothing is told: %.2f %s.\n", name, 1e6 * tally.largest_silent,
+                        tally.unit);
         }
     }
 }
@@ -211,6 +218,7 @@ int main(int argc, char** argv) {
             continue;
         }
         Tally tally;
+        tally.unit = kind_of(blunder) == GroupKind::station_scale ? "ppm" : tally.unit;
         const int planted_campaigns = is_slow(blunder) ? std::min(campaigns, k_most_of_slow_kinds) : campaigns;
         for (int seed = 1; seed <= planted_campaigns; ++seed) {
             const synthetic::Planted planted = synthetic::plant(blunder, static_cast<std::uint64_t>(seed), angles);

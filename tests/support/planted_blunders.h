@@ -35,6 +35,9 @@ enum class Blunder {
     pair,                 ///< all distances between a station and a reflector, 5 µm to 50 µm
     leaning_reflector,    ///< elsewhere in a part of the turn, in every run, 2 µm to 50 µm
     moved_reflector,      ///< elsewhere from some visit on, 2 µm to 50 µm
+    moved_fixture,        ///< on the table, before one of the stations, 2 µm to 300 µm
+    scale_of_station,     ///< one factor on all its distances, 2 ppm to 500 ppm
+    scale_of_two,         ///< the same of two stations, each with its own size
 };
 
 /// Whether the first angle is measured again at the end of each run.
@@ -42,7 +45,7 @@ inline bool is_closed(Blunder blunder) {
     return blunder == Blunder::closed_drift || blunder == Blunder::closed_drift_of_all;
 }
 
-inline constexpr std::array<std::pair<Blunder, const char*>, 19> k_blunders{
+inline constexpr std::array<std::pair<Blunder, const char*>, 22> k_blunders{
     {{Blunder::none, "none"},
      {Blunder::outliers, "outliers"},
      {Blunder::visit, "visit"},
@@ -56,6 +59,9 @@ inline constexpr std::array<std::pair<Blunder, const char*>, 19> k_blunders{
      {Blunder::pair, "one station and one reflector"},
      {Blunder::leaning_reflector, "reflector elsewhere in a part of the turn"},
      {Blunder::moved_reflector, "reflector moved for good"},
+     {Blunder::moved_fixture, "fixture moved on the table"},
+     {Blunder::scale_of_station, "scale of one station"},
+     {Blunder::scale_of_two, "scales of two stations"},
      {Blunder::angle_index, "angle index"},
      {Blunder::displaced_reflector, "displaced reflector"},
      {Blunder::swapped_reflectors, "swapped reflectors"},
@@ -168,6 +174,13 @@ inline void move_station(Planted& planted, const Campaign& sound, const Eigen::V
     }
 }
 
+/// One factor on all distances of a station, as of a wrong refractive index.
+inline void scale_station(RotaryTableMeasurement& m, std::size_t station, double size) {
+    for (LengthObservation& length : m.lengths) {
+        length.length *= length.station == station ? 1.0 + size : 1.0;
+    }
+}
+
 /// What a distance to a reflector changes by when it is moved in the fixture, exactly.
 inline void move_reflector(RotaryTableMeasurement& m, LengthObservation& length, const Campaign& sound,
                            const Eigen::Vector3d& step) {
@@ -269,6 +282,27 @@ inline Planted plant(Blunder blunder, std::uint64_t seed, int angles = 24) {
             }
             break;
         }
+        case Blunder::moved_fixture: {
+            planted.size = log_uniform(draw, 2e-6, 300e-6);
+            const Eigen::Vector3d direction(draw.normal(), draw.normal(), draw.normal());
+            planted.station = 1 + one_of(draw, m.stations.size() - 1);
+            for (LengthObservation& length : m.lengths) {
+                if (length.station >= planted.station) {
+                    move_reflector(m, length, sound, planted.size * direction.normalized());
+                }
+            }
+            break;
+        }
+        case Blunder::scale_of_station:
+            planted.size = sign * log_uniform(draw, 2e-6, 500e-6);
+            scale_station(m, planted.station, planted.size);
+            break;
+        case Blunder::scale_of_two:
+            planted.size = sign * log_uniform(draw, 2e-6, 500e-6);
+            scale_station(m, planted.station, planted.size);
+            planted.other = (planted.station + 1 + one_of(draw, m.stations.size() - 1)) % m.stations.size();
+            scale_station(m, planted.other, either_sign(draw) * log_uniform(draw, 2e-6, 500e-6));
+            break;
         case Blunder::angle_index: {
             const std::size_t steps = 1 + one_of(draw, m.angles.size() - 1);
             planted.size = static_cast<double>(steps);

@@ -17,11 +17,7 @@
 #include "engine/rotary_table/anglewise_map.h"
 #include "engine/rotary_table/geometry_check.h"
 #include "engine/rotary_table/group_notes.h"
-#include "engine/rotary_table/start/gross_errors.h"
-#include "engine/rotary_table/start/interrupted_beams.h"
-#include "engine/rotary_table/start/no_rigid_table.h"
-#include "engine/rotary_table/start/start_values.h"
-#include "engine/rotary_table/start/wrong_labels.h"
+#include "engine/rotary_table/start/start_search.h"
 #include "engine/rotary_table/station_covariance.h"
 #include "gum/quantity/units.h"
 #include "text/degrees_of_freedom.h"
@@ -467,54 +463,93 @@ StochasticModel variances_without(const GroupTest& group, const JointAdjustment&
     return stochastic;
 }
 
-/// Groups of a measurement of which a station has a scale error: how large it is, and what else is suspicious, from the
-/// distances without it. An error of many ppm moves the temperature of the fixture at the station so far from what is stated
-/// that the linearised tests are not those of the measurement.
-GroupTests without_scale_error(GroupTests groups, const JointAdjustment& adjustment, const StochasticModel& stochastic,
-                               const EvaluationOptions& options, const GroupTestOptions& group_options) {
+/// A measurement of which the scale errors of some stations are taken off.
+struct WithoutScaleErrors {
+    Eigen::VectorXd errors;  ///< of each station
+    GroupTests groups;       ///< of the distances without them
+};
+
+/// \param told  stations and their errors, from where the search begins
+WithoutScaleErrors without_scale_errors_of(const std::vector<GroupTest>& told, const JointAdjustment& adjustment,
+                                           const StochasticModel& stochastic, const EvaluationOptions& options,
+                                           const GroupTestOptions& group_options) {
     constexpr int k_most_corrections = 8;
     constexpr double k_settled = 1e-3;  // of the error: it is told with three digits
+    const auto count = std::ssize(told);
+    std::vector<std::size_t> stations;
+    Eigen::VectorXd error(count);
+    for (Eigen::Index k = 0; k < count; ++k) {
+        stations.push_back(told[static_cast<std::size_t>(k)].station);
+        error[k] = told[static_cast<std::size_t>(k)].estimate;
+    }
+    Eigen::VectorXd change = error;
+    Eigen::VectorXd before = Eigen::VectorXd::Zero(count);  // the errors that were corrected then, and what was left
+    Eigen::VectorXd left_before = error;
+    RotaryTableMeasurement corrected = adjustment.measurement();
+    std::optional<JointAdjustment> without;
+    std::optional<NormalEquations> normal;
+    for (int k = 0; k < k_most_corrections && (change.array().abs() > k_settled * error.array().abs()).any(); ++k) {
+        for (std::size_t i = 0; i < corrected.lengths.size(); ++i) {
+            LengthObservation& length = corrected.lengths[i];
+            const auto of = std::ranges::find(stations, length.station);
+            if (of != stations.end()) {
+                length.length = adjustment.measurement().lengths[i].length / (1.0 + error[of - stations.begin()]);
+            }
+        }
+        without.emplace(corrected, adjustment.active(), adjustment.set_up(), adjustment.present_values(), stochastic);
+        without->adjustment().set_workers(options.workers);
+        // Not from where the error has led the temperatures.
+        require_convergence(without->adjustment().solve(options.solver));
+        without->set_weights(stochastic);
+        require_convergence(without->adjustment().refine(options.solver));
+        normal.emplace(without->adjustment().linearise());
+        const Eigen::VectorXd left =
+            scale_errors_of_stations(*without, *normal, normal->bordered_covariance(), stations);
+        for (Eigen::Index j = 0; j < count; ++j) {
+            // A secant: what a large error is told as is up to twice as large.
+            change[j] =
+                left_before[j] != left[j] ? left[j] * (error[j] - before[j]) / (left_before[j] - left[j]) : left[j];
+            before[j] = std::exchange(error[j], error[j] + change[j]);
+            left_before[j] = left[j];
+        }
+    }
+    return {error, test_groups(*without, *normal, normal->bordered_covariance(), group_options)};
+}
+
+/// Groups of a measurement of which stations have scale errors: how large they are, and what else is suspicious, from the
+/// distances without them. An error of many ppm moves the temperature of the fixture at the station so far from what is stated
+/// that the linearised tests are not those of the measurement, and the scale of a second station is told as another cause.
+GroupTests without_scale_errors(GroupTests groups, const JointAdjustment& adjustment, const StochasticModel& stochastic,
+                                const EvaluationOptions& options, const GroupTestOptions& group_options) {
     if (groups.tests.empty() || !groups.tests.front().suspicious ||
         groups.tests.front().kind != GroupKind::station_scale) {
         return groups;
     }
-    GroupTest told = groups.tests.front();
+    std::vector<GroupTest> told{groups.tests.front()};
+    const std::size_t most = adjustment.measurement().stations.size() / 2;  // of more it is the others that are wrong
     try {
-        RotaryTableMeasurement corrected = adjustment.measurement();
-        std::optional<JointAdjustment> without;
-        double error = told.estimate;
-        double change = error;
-        double before = 0.0;  // the error that was corrected then, and what was left
-        double left_before = error;
-        std::optional<NormalEquations> normal;
-        for (int k = 0; k < k_most_corrections && std::abs(change) > k_settled * std::abs(error); ++k) {
-            for (std::size_t i = 0; i < corrected.lengths.size(); ++i) {
-                LengthObservation& length = corrected.lengths[i];
-                if (length.station == told.station) {
-                    length.length = adjustment.measurement().lengths[i].length / (1.0 + error);
-                }
+        for (std::size_t round = 0; round < std::max<std::size_t>(most, 1); ++round) {
+            WithoutScaleErrors without = without_scale_errors_of(told, adjustment, stochastic, options, group_options);
+            for (std::size_t k = 0; k < told.size(); ++k) {
+                told[k].estimate = without.errors[static_cast<Eigen::Index>(k)];
             }
-            without.emplace(corrected, adjustment.active(), adjustment.set_up(), adjustment.present_values(),
-                            stochastic);
-            without->adjustment().set_workers(options.workers);
-            // Not from where the error has led the temperatures.
-            require_convergence(without->adjustment().solve(options.solver));
-            without->set_weights(stochastic);
-            require_convergence(without->adjustment().refine(options.solver));
-            normal.emplace(without->adjustment().linearise());
-            const double left = scale_error_of_station(*without, *normal, normal->bordered_covariance(), told.station);
-            // A secant: what a large error is told as is up to twice as large.
-            change = left_before != left ? left * (error - before) / (left_before - left) : left;
-            before = std::exchange(error, error + change);
-            left_before = left;
+            const auto next = std::ranges::find_if(without.groups.tests, [&](const GroupTest& test) {
+                return test.suspicious && test.kind == GroupKind::station_scale &&
+                       std::ranges::find(told, test.station, &GroupTest::station) == told.end();
+            });
+            if (next != without.groups.tests.end() && told.size() < most) {
+                told.push_back(*next);
+                continue;
+            }
+            std::vector<GroupTest>& others = without.groups.tests;
+            std::erase_if(others, [&](const GroupTest& test) {
+                return test.kind == GroupKind::station_scale &&
+                       (!test.suspicious || std::ranges::find(told, test.station, &GroupTest::station) != told.end());
+            });
+            others.insert(others.begin(), told.begin(), told.end());
+            groups.tests = std::move(others);
+            return groups;
         }
-        told.estimate = error;
-        GroupTests others = test_groups(*without, *normal, normal->bordered_covariance(), group_options);
-        std::erase_if(others.tests, [&](const GroupTest& test) {
-            return test.kind == GroupKind::station_scale && (!test.suspicious || test.station == told.station);
-        });
-        others.tests.insert(others.tests.begin(), told);
-        groups.tests = std::move(others.tests);
     } catch (const gum::NoResultError&) {
         return groups;  // a check, which the result does not need
     }
@@ -527,8 +562,8 @@ GroupTests groups_of(const JointAdjustment& adjustment, const NormalEquations& n
                      const BorderedCovariance& covariance, const EstimatedComponents& estimated,
                      const StochasticModel& stochastic, const EvaluationOptions& options,
                      const GroupTestOptions& group_options) {
-    GroupTests groups = without_scale_error(test_groups(adjustment, normal, covariance, group_options), adjustment,
-                                            stochastic, options, group_options);
+    GroupTests groups = without_scale_errors(test_groups(adjustment, normal, covariance, group_options), adjustment,
+                                             stochastic, options, group_options);
     const GroupTest* const near = nearly_suspicious(groups, group_options);
     const bool told = std::ranges::any_of(groups.tests, &GroupTest::suspicious);
     if (told || near == nullptr || !(estimated.length || estimated.table)) {
@@ -828,9 +863,10 @@ struct Adjusted {
     bool reversal_may_depend_on_angle = false;
 };
 
-/// \param measurement  ReversalModel::automatic is one reversal of all angles
-Adjusted adjust_and_test(const RotaryTableMeasurement& measurement, const EvaluationOptions& options,
-                         const Progress& progress) {
+/// \param measurement   ReversalModel::automatic is one reversal of all angles
+/// \param start_search  of the measurement, or of one that has another reversal: start values do not depend on it
+Adjusted adjust_and_test(const RotaryTableMeasurement& measurement, StartSearch& start_search,
+                         const EvaluationOptions& options, const Progress& progress) {
     const FixtureComponent fixture_component = measurement.fixture_component;
     const EstimatedComponents estimated{measurement.estimate_length_noise,
                                         measurement.table_repeatability.mode == RepeatabilityMode::estimate,
@@ -840,18 +876,17 @@ Adjusted adjust_and_test(const RotaryTableMeasurement& measurement, const Evalua
     const OutlierOptions& outliers = measurement.outliers;
     const bool snooping = outliers.test == OutlierTest::data_snooping;
 
-    iteration.report("start values");
     const std::vector<bool> all(measurement.lengths.size(), true);
     std::vector<bool> active = all;
     // A length that is off by centimetres carries the solution away, and comes back as a rank defect of another
     // station.
-    const std::vector<std::size_t> gross = find_gross_errors(measurement);
+    const std::vector<std::size_t>& gross = start_search.gross_errors();
     if (!gross.empty() && (!snooping || outliers.action == OutlierAction::report)) {
         refuse_gross_errors(measurement, gross);
     }
     // Two whole visits lost are no single errors: before anything is left out, interrupted beams are looked for.
     if (has_whole_visits(measurement, gross)) {
-        refuse_interrupted_beams(measurement);
+        start_search.refuse_interrupted_beams();
     }
     std::vector<OutlierFinding> found;
     const auto set_aside = [&](std::size_t i) {
@@ -863,7 +898,7 @@ Adjusted adjust_and_test(const RotaryTableMeasurement& measurement, const Evalua
         found.push_back(finding);
     };
     std::ranges::for_each(gross, set_aside);
-    StartValues start = find_start_values(measurement, active);
+    StartValues start = start_search.start_values(active);
     refuse_inclined_fixture(measurement.axis, start.set_up);
     // Error motions about another axis would be large turns: of an inclined fixture the adjustment starts upright.
     RigidMotion start_set_up;
@@ -875,7 +910,7 @@ Adjusted adjust_and_test(const RotaryTableMeasurement& measurement, const Evalua
     }
     // Before the adjustment, which would not converge, or would name parameters that do not show the cause.
     if (const std::optional<gum::Diagnostic> line = stations_on_one_line(start.stations)) {
-        refuse_no_rigid_table(measurement);
+        start_search.refuse_no_rigid_table();
         throw gum::NoResultError(*line);
     }
     JointAdjustment first(measurement, active, start_set_up, start, stochastic);
@@ -889,7 +924,7 @@ Adjusted adjust_and_test(const RotaryTableMeasurement& measurement, const Evalua
     try {
         require_rank(first);
     } catch (const gum::NoResultError&) {
-        refuse_no_rigid_table(measurement);
+        start_search.refuse_no_rigid_table();
         throw;
     }
     iteration.report("joint adjustment");
@@ -1223,9 +1258,9 @@ Adjusted adjust_and_test(const RotaryTableMeasurement& measurement, const Evalua
 }
 
 /// The reversal of all angles, or that of each where the measurement or the distances ask for it.
-RotaryTableSolution adjust_with_reversal(const RotaryTableMeasurement& measurement, const EvaluationOptions& options,
-                                         const Progress& progress) {
-    Adjusted adjusted = adjust_and_test(measurement, options, progress);
+RotaryTableSolution adjust_with_reversal(const RotaryTableMeasurement& measurement, StartSearch& start_search,
+                                         const EvaluationOptions& options, const Progress& progress) {
+    Adjusted adjusted = adjust_and_test(measurement, start_search, options, progress);
     if (!adjusted.reversal_may_depend_on_angle) {
         return std::move(adjusted.solution);
     }
@@ -1236,7 +1271,7 @@ RotaryTableSolution adjust_with_reversal(const RotaryTableMeasurement& measureme
     by_angle.reversal = ReversalModel::by_angle;
     RotaryTableSolution each;
     try {
-        each = adjust_and_test(by_angle, options, progress).solution;
+        each = adjust_and_test(by_angle, start_search, options, progress).solution;
     } catch (const gum::NoResultError&) {
         return std::move(adjusted.solution);  // only asked, not needed
     }
@@ -1259,8 +1294,12 @@ RotaryTableSolution adjust_with_reversal(const RotaryTableMeasurement& measureme
 RotaryTableSolution evaluate_jointly(const RotaryTableMeasurement& measurement, const EvaluationOptions& options,
                                      const Progress& progress) {
     require_enough_angles(measurement);
+    if (progress) {
+        progress("start values");
+    }
+    StartSearch start_search(measurement);
     try {
-        return adjust_with_reversal(measurement, options, progress);
+        return adjust_with_reversal(measurement, start_search, options, progress);
     } catch (const gum::NoResultError& error) {
         // Wrong labels and an interrupted beam look like a station whose place is open, like one that fits no table, like
         // an adjustment that goes astray, or like a table that nobody has.
@@ -1268,8 +1307,10 @@ RotaryTableSolution evaluate_jointly(const RotaryTableMeasurement& measurement, 
                 return problem.code == "GC-ADJUST-0005" || problem.code == "GC-ADJUST-0015" ||
                        problem.code == "GC-RANK-0001" || problem.code == "GC-VARIANCE-0008";
             })) {
-            refuse_wrong_labels(measurement);
-            refuse_interrupted_beams(measurement);
+            start_search.refuse_wrong_labels();
+            start_search.refuse_interrupted_beams();
+            // Neither what is open nor how far an adjustment came says anything of distances that fit no place.
+            start_search.refuse_no_rigid_table();
         }
         throw;
     }

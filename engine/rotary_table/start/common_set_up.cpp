@@ -1,5 +1,6 @@
 #include "engine/rotary_table/start/common_set_up.h"
 
+#include <cmath>
 #include <numeric>
 #include <utility>
 
@@ -61,6 +62,78 @@ CommonFit fit_together(const ObservedStations& observed, std::vector<StationFit>
         descend(observed, all, found.set_up, found.stations, true);
     }
     return found;
+}
+
+CommonFit fit_within_reach(const ObservedStations& observed) {
+    constexpr int k_most_rounds = 4;
+    constexpr double k_better = 0.9;  // of a misfit: less is no other place
+    std::vector<std::size_t> all(observed.stations().size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    CommonFit found;
+    found.stations.resize(all.size());
+    // The best place of a station from all sides and on the other side of the plane of its points.
+    const auto look_from_all_sides = [&](std::size_t j, bool free_set_up) {
+        const std::vector<Eigen::Vector3d> points = observed.positions(j, found.set_up, false).point;
+        std::vector<Eigen::Vector3d> starts = all_sides(closed_solution(observed.stations()[j], points).centre);
+        if (std::isfinite(found.stations[j].misfit)) {
+            starts.push_back(mirror_image(points, found.stations[j].position));
+        }
+        bool changed = false;
+        for (const Eigen::Vector3d& from : starts) {
+            const StationFit fit = refined(observed, j, from, found.set_up, free_set_up, Pull::of_all, Prior::strong);
+            if (fit.misfit < k_better * found.stations[j].misfit) {
+                found.stations[j] = fit;
+                changed = true;
+            }
+        }
+        return changed;
+    };
+    for (const std::size_t j : all) {
+        look_from_all_sides(j, true);
+    }
+    bool changed = true;
+    for (int round = 0; round < k_most_rounds && changed; ++round) {
+        descend(observed, all, found.set_up, found.stations, true, k_fine_step, Pull::of_those_that_agree,
+                Prior::strong);
+        changed = false;
+        for (const std::size_t j : all) {
+            changed = look_from_all_sides(j, false) || changed;
+        }
+    }
+    descend(observed, all, found.set_up, found.stations, true, k_fine_step, Pull::of_those_that_agree, Prior::strong);
+    return found;
+}
+
+bool has_other_side(const ObservedStations& observed, const CommonFit& within) {
+    constexpr double k_same_place = 0.01;  // [m]
+    std::vector<std::size_t> all(within.stations.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    // From the same set-up and from the one of which nothing is known: each may lead back.
+    for (const bool known : {true, false}) {
+        CommonFit other;
+        other.set_up = known ? within.set_up : Eigen::Vector4d(Eigen::Vector4d::Zero());
+        other.stations = within.stations;
+        for (const std::size_t j : all) {
+            const Eigen::Vector3d image =
+                mirror_image(observed.positions(j, within.set_up, false).point, within.stations[j].position);
+            other.stations[j] = refined(observed, j, image, other.set_up, !known, Pull::of_all, Prior::strong);
+        }
+        descend(observed, all, other.set_up, other.stations, true, k_fine_step, Pull::of_all, Prior::strong);
+        descend(observed, all, other.set_up, other.stations, true, k_fine_step, Pull::of_those_that_agree,
+                Prior::strong);
+        double squares = 0.0;
+        double squares_of_other = 0.0;
+        bool elsewhere = false;
+        for (const std::size_t j : all) {
+            squares += within.stations[j].misfit * within.stations[j].misfit;
+            squares_of_other += other.stations[j].misfit * other.stations[j].misfit;
+            elsewhere = elsewhere || (other.stations[j].position - within.stations[j].position).norm() > k_same_place;
+        }
+        if (elsewhere && squares_of_other < k_rival_factor * k_rival_factor * squares) {
+            return true;
+        }
+    }
+    return false;
 }
 
 }  // namespace gumcert::engine

@@ -19,4 +19,13 @@ struct CommonFit {
 /// \param alone  one a station of the measurement
 [[nodiscard]] CommonFit fit_together(const ObservedStations& observed, std::vector<StationFit> alone);
 
+/// From all sides and by the strong prior: distances that hardly tell where a station stands, as of few reflectors with a dead
+/// path of each, lead one that is found on its own kilometres away, or to a false place of which there seem to be two.
+[[nodiscard]] CommonFit fit_within_reach(const ObservedStations& observed);
+
+/// Whether all stations fit on the other sides of the planes of their points as well, with another set-up: then distances do
+/// not tell which of both is the table.
+/// \param within  of `fit_within_reach`
+[[nodiscard]] bool has_other_side(const ObservedStations& observed, const CommonFit& within);
+
 }  // namespace gumcert::engine

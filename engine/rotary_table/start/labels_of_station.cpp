@@ -28,20 +28,28 @@ double misfit_with(const RotaryTableMeasurement& measurement, const LabelHypothe
     return std::min(left, misfit_with(measurement, {.lengths = 1.0 / hypothesis.fixture}, station, active, closely));
 }
 
+/// A wrong guess of labels lowers the misfit by chance, and that of a station that fits very badly a good deal. The right
+/// one removes nearly all of it, and leaves what error motions do. [m]
+double most_with_right_labels(double misfit) {
+    return std::min(k_share_with_right_labels * misfit, k_good_misfit);
+}
+
 }  // namespace
 
+bool labels_explain_station(const RotaryTableMeasurement& measurement, std::size_t station, double misfit,
+                            const LabelHypothesis& labels) {
+    const std::vector<bool> active = lengths_of_station(measurement, station);
+    return PlaceSearch(measurement, active).tells_causes(station) &&
+           misfit_with(measurement, labels, station, active, true) < most_with_right_labels(misfit);
+}
+
 std::optional<LabelHypothesis> labels_of_station(const RotaryTableMeasurement& measurement, std::size_t station,
-                                                 double misfit, const std::optional<LabelHypothesis>& known) {
+                                                 double misfit) {
     const std::vector<bool> active = lengths_of_station(measurement, station);
     if (!PlaceSearch(measurement, active).tells_causes(station)) {
         return std::nullopt;
     }
-    // A wrong guess of labels lowers the misfit by chance, and that of a station that fits very badly a good deal. The
-    // right one removes nearly all of it, and leaves what error motions do.
-    double least = std::min(k_share_with_right_labels * misfit, k_good_misfit);
-    if (known && misfit_with(measurement, *known, station, active, true) < least) {
-        return known;
-    }
+    double least = most_with_right_labels(misfit);
     // Some visits tell the labels of all: the time does not grow with the measurement.
     const std::vector<bool> some = lengths_of_some_visits(measurement, active);
     const std::vector<LabelHypothesis> hypotheses = label_hypotheses(measurement);
@@ -88,8 +96,8 @@ std::optional<LabelHypothesis> scale_of_station(const RotaryTableMeasurement& me
     // What is left grows with the distance of the factor from the right one, on both sides.
     const double logarithm = gum::least_by_golden_section(misfit_at, -std::log(k_most), std::log(k_most), k_steps);
     const LabelHypothesis found{.lengths = std::exp(logarithm), .scale = true};
-    if (std::abs(found.lengths - 1.0) > k_least && misfit_with(measurement, found, station, active, true) <
-                                                       std::min(k_share_with_right_labels * misfit, k_good_misfit)) {
+    if (std::abs(found.lengths - 1.0) > k_least &&
+        misfit_with(measurement, found, station, active, true) < most_with_right_labels(misfit)) {
         return found;
     }
     return std::nullopt;

@@ -1,11 +1,10 @@
 #include "engine/rotary_table/start/no_rigid_table.h"
 
 #include <cstddef>
-#include <utility>
 
 #include "engine/rotary_table/start/fit_limits.h"
 #include "engine/rotary_table/start/millimetres_text.h"
-#include "engine/rotary_table/start/place_search.h"
+#include "engine/rotary_table/start/robust_descent.h"
 
 namespace gumcert::engine {
 
@@ -29,12 +28,6 @@ std::optional<gum::Diagnostic> no_rigid_table(const RotaryTableMeasurement& meas
         "the "
         "protocol of the measurement",
         gum::Severity::error};
-}
-
-void refuse_no_rigid_table(const RotaryTableMeasurement& measurement) {
-    if (std::optional<gum::Diagnostic> none = no_rigid_table(measurement, PlaceSearch(measurement).fit_each())) {
-        throw gum::NoResultError(std::move(*none));
-    }
 }
 
 }  // namespace gumcert::engine

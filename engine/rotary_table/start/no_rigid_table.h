@@ -10,15 +10,12 @@ namespace gumcert::engine {
 
 struct StationFit;  // robust_descent.h
 
-/// The station that fits its distances worst, each on its own, where it is worse than error motions let any fit.
+/// The station that fits its distances worst, each on its own, where it is worse than error motions let any fit. To be asked
+/// before a measurement is refused for its layout: what is open where the distances of a station fit no place to a millimetre
+/// is no property of the layout.
 /// \param fits  one a station of the measurement, each on its own
 /// \return GC-ADJUST-0015
 [[nodiscard]] std::optional<gum::Diagnostic> no_rigid_table(const RotaryTableMeasurement& measurement,
                                                             const std::vector<StationFit>& fits);
-
-/// To be asked before a measurement is refused for its layout: what is open where the distances of a station fit no place to
-/// a millimetre is no property of the layout.
-/// \throws gum::NoResultError  GC-ADJUST-0015
-void refuse_no_rigid_table(const RotaryTableMeasurement& measurement);
 
 }  // namespace gumcert::engine

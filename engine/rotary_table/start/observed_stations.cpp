@@ -24,26 +24,36 @@ RigidMotion ObservedStations::set_up_motion(const Eigen::Vector4d& set_up) const
 }
 
 PointPositions ObservedStations::positions(std::size_t station, const Eigen::Vector4d& set_up, bool derivatives) const {
+    PointPositions result;
+    locate(station, set_up, result);
+    if (derivatives) {
+        derive(station, set_up, result);
+    }
+    return result;
+}
+
+void ObservedStations::locate(std::size_t station, const Eigen::Vector4d& set_up, PointPositions& positions) const {
     const RigidMotion motion = set_up_motion(set_up);
+    const StationDistances& data = stations_[station];
+    positions.point.resize(data.point.size());
+    for (std::size_t i = 0; i < data.point.size(); ++i) {
+        positions.point[i] = turn_[data.angle[i]] * (motion * data.point[i]);
+    }
+}
+
+void ObservedStations::derive(std::size_t station, const Eigen::Vector4d& set_up, PointPositions& positions) const {
     Eigen::Vector3d tilt = Eigen::Vector3d::Zero();
     tilt[across_[0]] = set_up[2];
     tilt[across_[1]] = set_up[3];
     const std::array<Eigen::Matrix3d, 3> by_tilt = rotation_zyx_derivatives(tilt);
     const StationDistances& data = stations_[station];
-    PointPositions result;
-    result.point.reserve(data.point.size());
+    positions.by_set_up.resize(data.point.size());
     for (std::size_t i = 0; i < data.point.size(); ++i) {
         const Eigen::Matrix3d& turn = turn_[data.angle[i]];
-        result.point.emplace_back(turn * (motion * data.point[i]));
-        if (derivatives) {
-            Eigen::Matrix<double, 3, 4> by_set_up;
-            by_set_up << turn.col(across_[0]), turn.col(across_[1]),
-                turn * (by_tilt[static_cast<std::size_t>(across_[0])] * data.point[i]),
-                turn * (by_tilt[static_cast<std::size_t>(across_[1])] * data.point[i]);
-            result.by_set_up.push_back(by_set_up);
-        }
+        positions.by_set_up[i] << turn.col(across_[0]), turn.col(across_[1]),
+            turn * (by_tilt[static_cast<std::size_t>(across_[0])] * data.point[i]),
+            turn * (by_tilt[static_cast<std::size_t>(across_[1])] * data.point[i]);
     }
-    return result;
 }
 
 Deviations ObservedStations::deviations(std::size_t station, const Eigen::Vector4d& set_up,

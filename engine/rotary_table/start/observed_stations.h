@@ -36,6 +36,10 @@ public:
     /// T_s.
     [[nodiscard]] RigidMotion set_up_motion(const Eigen::Vector4d& set_up) const;
     [[nodiscard]] PointPositions positions(std::size_t station, const Eigen::Vector4d& set_up, bool derivatives) const;
+    /// The points of `positions` alone.
+    void locate(std::size_t station, const Eigen::Vector4d& set_up, PointPositions& positions) const;
+    /// The derivatives of `positions` alone.
+    void derive(std::size_t station, const Eigen::Vector4d& set_up, PointPositions& positions) const;
     /// \param place  of the station, in T, [m]
     [[nodiscard]] Deviations deviations(std::size_t station, const Eigen::Vector4d& set_up,
                                         const Eigen::Vector3d& place) const;

@@ -1,7 +1,9 @@
 #include "engine/rotary_table/start/open_places.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -182,6 +184,34 @@ void settle_open_places(const ObservedStations& observed, CommonFit& found) {
         refuse_open_direction(observed, found, j);
     }
     settle_mirror_images(observed, found);
+}
+
+CommonFit settled_places(const ObservedStations& observed, const std::vector<StationFit>& alone) {
+    CommonFit found = fit_together(observed, alone);
+    std::optional<gum::NoResultError> open;
+    try {
+        settle_open_places(observed, found);
+        return found;
+    } catch (const gum::NoResultError& error) {
+        open = error;
+    }
+    CommonFit within = fit_within_reach(observed);
+    for (std::size_t j = 0; j < alone.size(); ++j) {
+        // A place that fits as error motions let it fit, or as well as the one that is open. What fits no place is no table.
+        const double most = std::max(k_good_misfit, k_rival_factor * found.stations[j].misfit);
+        if (within.stations[j].misfit > std::min(k_wrong_labels, most)) {
+            throw gum::NoResultError(*open);
+        }
+    }
+    if (has_other_side(observed, within)) {
+        throw gum::NoResultError(*open);
+    }
+    try {
+        settle_open_places(observed, within);
+    } catch (const gum::NoResultError&) {
+        throw gum::NoResultError(*open);
+    }
+    return within;
 }
 
 }  // namespace gumcert::engine

@@ -14,4 +14,10 @@ namespace gumcert::engine {
 /// \throws gum::NoResultError  GC-RANK-0001
 void settle_open_places(const ObservedStations& observed, CommonFit& found);
 
+/// All stations with the set-up that they share, the places that are open settled. What seems to be open at a false place is
+/// looked for once more within reach of the table.
+/// \param alone  one a station of the measurement, each on its own
+/// \throws gum::NoResultError  as settle_open_places()
+[[nodiscard]] CommonFit settled_places(const ObservedStations& observed, const std::vector<StationFit>& alone);
+
 }  // namespace gumcert::engine

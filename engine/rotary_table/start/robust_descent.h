@@ -29,6 +29,12 @@ enum class Pull {
     of_all,               ///< plain least squares, before the one with weights
 };
 
+/// What a descent knows beforehand.
+enum class Prior {
+    weak,    ///< set-up errors are of millimetres and a degree: it only decides what the distances leave open
+    strong,  ///< and stations stand some metres from the table: as probabilities, for distances that hardly tell a place
+};
+
 // Steps at which a descent ends, [m] and [rad]: of one station, to choose among candidates, and of the start values.
 constexpr double k_coarse_step = 1e-4;
 constexpr double k_fine_step = 1e-6;
@@ -42,12 +48,12 @@ constexpr double k_fine_step = 1e-6;
 ///                side of the points; with weights it ends where some of the distances agree by chance
 void descend(const ObservedStations& observed, const std::vector<std::size_t>& of, Eigen::Vector4d& set_up,
              std::vector<StationFit>& fits, bool free_set_up, double step_tolerance = k_fine_step,
-             Pull pull = Pull::of_those_that_agree);
+             Pull pull = Pull::of_those_that_agree, Prior knowledge = Prior::weak);
 
 /// The same of one station from a place, with a set-up of its own.
 /// \param pull  of_all: by plain least squares first
 [[nodiscard]] StationFit refined(const ObservedStations& observed, std::size_t station, const Eigen::Vector3d& from,
-                                 const Eigen::Vector4d& set_up, bool free_set_up,
-                                 Pull pull = Pull::of_those_that_agree);
+                                 const Eigen::Vector4d& set_up, bool free_set_up, Pull pull = Pull::of_those_that_agree,
+                                 Prior knowledge = Prior::weak);
 
 }  // namespace gumcert::engine

@@ -11,10 +11,12 @@ namespace gumcert::engine {
 StartValues find_start_values(const RotaryTableMeasurement& measurement, const std::vector<bool>& active) {
     const PlaceSearch search(measurement, active);
     const ObservedStations& observed = search.observed();
-    CommonFit found = fit_together(observed, search.fit_each());
-    settle_open_places(observed, found);
+    return start_values_of(observed, settled_places(observed, search.fit_each()));
+}
+
+StartValues start_values_of(const ObservedStations& observed, const CommonFit& found) {
     StartValues start;
-    start.dead_paths = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(measurement.dead_paths.size()));
+    start.dead_paths = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(observed.measurement().dead_paths.size()));
     // JointAdjustment starts with T_s = 1: its table frame is the fixture frame at home.
     start.set_up = observed.set_up_motion(found.set_up);
     const RigidMotion fixture_from_table = start.set_up.inverse();

@@ -7,6 +7,9 @@
 
 namespace gumcert::engine {
 
+struct CommonFit;        // common_set_up.h
+class ObservedStations;  // observed_stations.h
+
 /// Start values of stations and dead paths without an operator.
 ///
 /// A closed solution of each station, linear in (q, l0, |q|² - l0²), is refined by a robust Gauss-Newton descent with
@@ -25,5 +28,9 @@ namespace gumcert::engine {
 ///         all reflectors seen on a cone, or all in one plane across the axis (mirror image)
 [[nodiscard]] StartValues find_start_values(const RotaryTableMeasurement& measurement,
                                             const std::vector<bool>& active = {});
+
+/// The same where the places of the stations are known.
+/// \param found  of all distances that are used, the places that are open settled
+[[nodiscard]] StartValues start_values_of(const ObservedStations& observed, const CommonFit& found);
 
 }  // namespace gumcert::engine

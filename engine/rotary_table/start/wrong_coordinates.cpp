@@ -69,7 +69,7 @@ void refuse_wrong_coordinates(const RotaryTableMeasurement& measurement, const s
         }
     }
     // Three points and their mirror image have the same distances: of four the other sense leaves one that fits nowhere.
-    if (!wrong || labels_of_station(measurement, stations.front(), misfits[stations.front()], std::nullopt)) {
+    if (!wrong || labels_of_station(measurement, stations.front(), misfits[stations.front()])) {
         return;
     }
     refuse_coordinates(measurement, *wrong, place_of_reflector(measurement, *wrong, stations, fits));

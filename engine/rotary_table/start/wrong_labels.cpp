@@ -35,50 +35,65 @@ bool is_suspicious(double misfit, std::vector<double> misfits, double limit = k_
     return misfit > limit || (misfit > k_least_suspicious && misfit > k_worse_than_others * median(misfits));
 }
 
-/// Which stations are asked. All: of a measurement that has no result, for which lengths in another unit may fit a false
-/// place.
-enum class Asked { suspicious, all };
+}  // namespace
 
-/// \param fits  of the stations, each on its own
-void refuse(const RotaryTableMeasurement& measurement, std::vector<StationFit> fits, Asked asked) {
-    std::vector<double> misfits;
-    for (const StationFit& fit : fits) {
-        misfits.push_back(fit.upright_misfit());
+WrongLabels::WrongLabels(const RotaryTableMeasurement& measurement, std::vector<StationFit> alone)
+    : measurement_(measurement),
+      fits_(std::move(alone)),
+      tried_labels_(fits_.size(), false),
+      tried_two_places_(fits_.size(), false) {
+    for (const StationFit& fit : fits_) {
+        misfits_.push_back(fit.upright_misfit());
     }
-    for (std::size_t j = 0; j < misfits.size(); ++j) {
-        if (fits[j].is_settled() && is_suspicious(misfits[j], misfits)) {
-            // The search ended at what error motions may leave: with neighbours that leave far less it goes on.
-            fits[j] = PlaceSearch(measurement, lengths_of_station(measurement, j)).fit_from_all_sides(j, fits[j]);
-            misfits[j] = fits[j].upright_misfit();
+}
+
+/// A search that ended at what error motions may leave goes on where the neighbours leave far less.
+void WrongLabels::look_closer() {
+    for (std::size_t j = 0; j < misfits_.size() && !looked_closer_; ++j) {
+        if (fits_[j].is_settled() && is_suspicious(misfits_[j], misfits_)) {
+            fits_[j] = PlaceSearch(measurement_, lengths_of_station(measurement_, j)).fit_from_all_sides(j, fits_[j]);
+            misfits_[j] = fits_[j].upright_misfit();
         }
     }
+    looked_closer_ = true;
+}
+
+void WrongLabels::refuse(Asked asked) {
+    look_closer();
     // One reflector that all stations disagree with is asked for first: it costs least.
     std::vector<std::size_t> open;
-    for (std::size_t j = 0; j < misfits.size(); ++j) {
-        if (is_suspicious(misfits[j], misfits)) {
+    for (std::size_t j = 0; j < misfits_.size(); ++j) {
+        if (is_suspicious(misfits_[j], misfits_)) {
             open.push_back(j);
         }
     }
-    if (open.size() > 1 && 2 * open.size() > misfits.size()) {
-        refuse_wrong_coordinates(measurement, open, misfits);
+    if (!tried_visits_ && open.size() > 1 && 2 * open.size() > misfits_.size()) {
+        refuse_wrong_coordinates(measurement_, open, misfits_);
     }
     open.clear();
-    std::vector<std::optional<LabelHypothesis>> causes(misfits.size());
+    std::vector<std::optional<LabelHypothesis>> causes(misfits_.size());
     std::vector<gum::Diagnostic> problems;
     std::optional<LabelHypothesis> known;  // what one station has is likely what all have
+    const auto labels_of_visits_of = [&](std::size_t j) {
+        return tried_visits_ ? std::nullopt : labels_of_visits(measurement_, j, fits_[j]);
+    };
     // All labels take a while: a rough table, whose stations are all alike, has a result and does not wait for them.
     const double limit = asked == Asked::all ? k_good_misfit : k_wrong_labels;
-    for (std::size_t j = 0; j < misfits.size(); ++j) {
-        const bool suspicious = is_suspicious(misfits[j], misfits, limit);
-        if (suspicious || (asked == Asked::all && misfits[j] > k_least_of_labels)) {
-            causes[j] = labels_of_station(measurement, j, misfits[j], known);
-            if (!causes[j] && suspicious) {
-                causes[j] = scale_of_station(measurement, j, fits[j]);
+    for (std::size_t j = 0; j < misfits_.size(); ++j) {
+        const bool suspicious = is_suspicious(misfits_[j], misfits_, limit);
+        if (suspicious || (asked == Asked::all && misfits_[j] > k_least_of_labels)) {
+            if (known && labels_explain_station(measurement_, j, misfits_[j], *known)) {
+                causes[j] = known;
+            } else if (!tried_labels_[j]) {
+                causes[j] = labels_of_station(measurement_, j, misfits_[j]);
+                if (!causes[j] && suspicious) {
+                    causes[j] = scale_of_station(measurement_, j, fits_[j]);
+                }
+                tried_labels_[j] = !causes[j] && suspicious;
             }
             // Labels of some visits are right, where they are: an interchange of two concerns few distances of the others.
             const bool of_some = causes[j] && causes[j]->first != causes[j]->second;
-            if (std::optional<gum::Diagnostic> part =
-                    of_some ? labels_of_visits(measurement, j, fits[j]) : std::nullopt) {
+            if (std::optional<gum::Diagnostic> part = of_some ? labels_of_visits_of(j) : std::nullopt) {
                 causes[j].reset();
                 problems.push_back(std::move(*part));
                 continue;
@@ -89,38 +104,41 @@ void refuse(const RotaryTableMeasurement& measurement, std::vector<StationFit> f
             }
         }
         // Distances that are wrong at some visits leave the station where it is, or take it along.
-        if (std::optional<gum::Diagnostic> part = labels_of_visits(measurement, j, fits[j])) {
+        if (std::optional<gum::Diagnostic> part = labels_of_visits_of(j)) {
             problems.push_back(std::move(*part));
         } else if (suspicious) {
             open.push_back(j);
         }
     }
     if (problems.empty() && std::ranges::none_of(causes, [](const auto& cause) { return cause.has_value(); })) {
-        refuse_stray_reflector(measurement, fits, asked == Asked::all);
+        refuse_stray_reflector(measurement_, fits_, asked == Asked::all);
     }
     for (const std::size_t j : open) {
-        refuse_two_places(measurement, j, misfits[j]);
+        if (!tried_two_places_[j]) {
+            refuse_two_places(measurement_, j, misfits_[j]);
+            tried_two_places_[j] = true;
+        }
     }
     const bool common = causes[0] && std::ranges::all_of(causes, [&](const auto& cause) { return cause == causes[0]; });
     for (std::size_t j = 0; j < causes.size() && !(common && j > 0); ++j) {
         if (causes[j]) {
-            problems.push_back(wrong_labels(measurement, *causes[j], common ? "" : measurement.stations[j]));
+            problems.push_back(wrong_labels(measurement_, *causes[j], common ? "" : measurement_.stations[j]));
         }
     }
     if (!problems.empty()) {
         throw gum::NoResultError(std::move(problems));
     }
+    // Without a cause all stations were asked for wrong labels at some of their visits.
+    tried_visits_ = true;
 }
 
-}  // namespace
-
-void refuse_wrong_labels(const RotaryTableMeasurement& measurement) {
-    refuse_shifted_angles(measurement);
-    refuse(measurement, PlaceSearch(measurement).fit_each(), Asked::all);
+void WrongLabels::refuse_suspicious() {
+    refuse(Asked::suspicious);
 }
 
-void refuse_labels_of_suspicious(const RotaryTableMeasurement& measurement, const std::vector<StationFit>& fits) {
-    refuse(measurement, fits, Asked::suspicious);
+void WrongLabels::refuse_all() {
+    refuse_shifted_angles(measurement_);
+    refuse(Asked::all);
 }
 
 }  // namespace gumcert::engine

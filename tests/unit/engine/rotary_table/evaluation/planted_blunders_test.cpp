@@ -348,21 +348,18 @@ TEST(PlantedBlunders, LengthsOfOneStationInAnotherUnitEndInWords) {
     }
 }
 
-// What no label explains is no statement on the layout: these reflectors form no plane and no cone.
+// What no label explains is no statement on the layout: these reflectors form no plane and no cone, and their home angle is
+// determined. One cause is that no place is found, one that the adjustment has open directions, one that it goes astray.
 TEST(PlantedBlunders, DistancesOfNoRigidTableSayNothingOfTheLayout) {
-    int told = 0;
-    for (const double factor : {-1.37, -0.7, 3.7, 0.3, 60.0}) {
-        RotaryTableMeasurement m = synthetic::sound_campaign(5).measurement;
+    for (const double factor : {-1.37, -0.7, 0.3}) {
+        RotaryTableMeasurement m = synthetic::sound_campaign(5, 12).measurement;
         for (LengthObservation& length : m.lengths) {
             length.length *= factor;
         }
         const std::string message = refusal(m);
-        EXPECT_EQ(message.find("cone about one line"), std::string::npos) << factor << ": " << message;
-        EXPECT_EQ(message.find("plane across the axis"), std::string::npos) << factor << ": " << message;
-        EXPECT_EQ(message.find("on one line"), std::string::npos) << factor << ": " << message;
-        told += message.find("fit no rigid table that turns by the stated angles") != std::string::npos ? 1 : 0;
+        EXPECT_NE(message.find("fit no rigid table that turns by the stated angles"), std::string::npos)
+            << factor << ": " << message;
     }
-    EXPECT_GE(told, 1);
 }
 
 // Axial motions that grow with the angle: from 0.1° over all angles on they are told, from 1° on refused.
@@ -654,6 +651,28 @@ TEST(PlantedBlunders, AScaleOfOneStationIsNamed) {
             EXPECT_EQ(first.station, 4U);
             EXPECT_NEAR(first.estimate / size, 1.0, 0.1);
         }
+    }
+}
+
+/// Of two stations each has its own size: that of the second was told half as large, or other causes in its place.
+TEST(PlantedBlunders, ScalesOfTwoStationsAreNamedWithTheirSizes) {
+    for (const auto& [first_size, second_size] :
+         {std::pair{20e-6, 20e-6}, std::pair{20e-6, -20e-6}, std::pair{100e-6, -30e-6}, std::pair{300e-6, 250e-6}}) {
+        const synthetic::Campaign sound = synthetic::sound_campaign(2, 12);
+        RotaryTableMeasurement m = sound.measurement;
+        synthetic::planting::scale_station(m, 1, first_size);
+        synthetic::planting::scale_station(m, 4, second_size);
+        SCOPED_TRACE(std::to_string(1e6 * first_size) + ", " + std::to_string(1e6 * second_size) + " ppm");
+        std::size_t named = 0;
+        for (const GroupTest& test : evaluated(m).groups->tests) {
+            if (test.suspicious) {
+                ASSERT_EQ(test.kind, GroupKind::station_scale);
+                ASSERT_TRUE(test.station == 1 || test.station == 4);
+                EXPECT_NEAR(test.estimate / (test.station == 1 ? first_size : second_size), 1.0, 0.1);
+                ++named;
+            }
+        }
+        EXPECT_EQ(named, 2U);
     }
 }
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "engine/rotary_table/start/interrupted_beams.h"
-#include "engine/rotary_table/start/wrong_labels.h"
+#include "engine/rotary_table/start/start_search.h"
 #include "gum/quantity/diagnostic.h"
 #include "tests/support/small_campaign.h"
 #include "tests/support/weak_layout.h"
@@ -35,7 +35,7 @@ TEST(GrossErrors, NoCauseIsToldOfSoundCampaigns) {
         }
         EXPECT_NO_THROW(refuse_interrupted_beams(campaign.measurement));
         if (seed <= k_with_all_labels) {
-            EXPECT_NO_THROW(refuse_wrong_labels(campaign.measurement));
+            EXPECT_NO_THROW(StartSearch(campaign.measurement).refuse_wrong_labels());
         }
     }
     EXPECT_GT(evaluated, k_campaigns * 3 / 4);

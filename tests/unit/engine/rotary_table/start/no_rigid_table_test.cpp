@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/rotary_table/start/robust_descent.h"
+#include "engine/rotary_table/start/start_search.h"
 #include "tests/support/small_campaign.h"
 
 namespace gumcert::engine {
@@ -30,11 +31,12 @@ TEST(NoRigidTable, TheStationThatFitsWorstIsNamedAboveAMillimetre) {
 
 TEST(NoRigidTable, DistancesOfNoTableAreRefusedAndSoundOnesAreNot) {
     RotaryTableMeasurement measurement = simulate(synthetic::small_plan()).measurement;
-    EXPECT_NO_THROW(refuse_no_rigid_table(measurement));
+    EXPECT_NO_THROW(StartSearch(measurement).refuse_no_rigid_table());
     for (LengthObservation& length : measurement.lengths) {
         length.length *= length.station == 2 ? 0.3 : 1.0;
     }
-    const std::vector<gum::Diagnostic> problems = synthetic::problems_of([&] { refuse_no_rigid_table(measurement); });
+    const std::vector<gum::Diagnostic> problems =
+        synthetic::problems_of([&] { StartSearch(measurement).refuse_no_rigid_table(); });
     ASSERT_EQ(problems.size(), 1U);
     EXPECT_EQ(problems[0].code, "GC-ADJUST-0015");
     EXPECT_EQ(problems[0].where, "station P3");

@@ -107,6 +107,58 @@ TEST(OpenPlaces, StationOnTheAxisWithADeadPathOfEachReflectorIsRefused) {
     }
 }
 
+/// Eight stations and three reflectors with a dead path of each, on a fixture that stands millimetres off the axis: a station on
+/// its own takes the set-up for its place.
+CampaignPlan few_reflectors(std::uint64_t seed) {
+    CampaignPlan plan;
+    plan.angles_deg = synthetic::full_turn(8);
+    plan.dead_paths = DeadPaths::per_station_and_reflector;
+    plan.stations = {{0.87, -1.21, 0.09}, {0.92, 0.33, -0.35}, {0.34, 1.43, -0.44}, {1.11, -0.42, 0.13},
+                     {1.17, -0.25, 0.72}, {0.95, 0.50, -0.83}, {1.31, -1.03, 0.46}, {0.49, 1.48, -0.30}};
+    plan.reflectors = {{0.03, 0.06, 0.0}, {0.09, 0.062, 0.07}, {0.15, 0.061, -0.08}};
+    plan.offset = {4.5e-3, -2.0e-3};
+    plan.seed = seed;
+    return plan;
+}
+
+TEST(OpenPlaces, WhatSeemsOpenAtAFalsePlaceIsLookedForWithinReach) {
+    int open = 0;  // as each station is found on its own
+    for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+        const Campaign campaign = simulate(few_reflectors(seed));
+        const PlaceSearch search(campaign.measurement);
+        CommonFit together = fit_together(search.observed(), search.fit_each());
+        open += synthetic::problems_of([&] { settle_open_places(search.observed(), together); }).empty() ? 0 : 1;
+        const CommonFit found = settled_places(search.observed(), search.fit_each());
+        for (std::size_t j = 0; j < 8; ++j) {
+            // Error motions are noise of a search, and move a place that is hardly determined by centimetres.
+            EXPECT_LT((found.stations[j].position - campaign.truth.stations[j]).norm(), 0.1) << seed << ", " << j;
+        }
+    }
+    EXPECT_GE(open, 1);
+}
+
+// Five angles close together do not tell the sides of the stations: a refusal, and never the false side.
+TEST(OpenPlaces, NoFalseSideIsTakenWithinReach) {
+    for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+        CampaignPlan plan = few_reflectors(seed);
+        plan.angles_deg = {0.0, 257.0, 269.0, 310.0, 358.0};
+        plan.stations = {{0.97, 0.74, 0.51},   {0.26, 1.45, 0.47}, {0.38, 1.04, -0.56}, {1.04, -0.60, -0.39},
+                         {0.35, -1.36, -0.50}, {1.17, 0.71, 0.22}, {0.48, -0.52, 0.71}, {1.40, -1.30, 0.32}};
+        plan.reflectors = {{0.056, 0.12, 0.0}, {0.077, -0.06, 0.104}, {0.056, -0.06, -0.104}};
+        plan.offset = {4.5e-3, -6.6e-3};
+        const Campaign campaign = simulate(plan);
+        const PlaceSearch search(campaign.measurement);
+        try {
+            const CommonFit found = settled_places(search.observed(), search.fit_each());
+            for (std::size_t j = 0; j < 8; ++j) {
+                EXPECT_LT((found.stations[j].position - campaign.truth.stations[j]).norm(), 0.3) << seed << ", " << j;
+            }
+        } catch (const gum::NoResultError& error) {
+            EXPECT_EQ(error.diagnostics().front().code, "GC-RANK-0001");
+        }
+    }
+}
+
 TEST(OpenPlaces, AUsualLayoutHasNone) {
     const Campaign campaign = simulate(synthetic::small_plan());
     const PlaceSearch search(campaign.measurement);

@@ -14,13 +14,13 @@ namespace {
 
 std::vector<gum::Diagnostic> labels_that_are_asked_for(const RotaryTableMeasurement& measurement) {
     return synthetic::problems_of(
-        [&] { refuse_labels_of_suspicious(measurement, PlaceSearch(measurement).fit_each()); });
+        [&] { WrongLabels(measurement, PlaceSearch(measurement).fit_each()).refuse_suspicious(); });
 }
 
 TEST(WrongLabels, OfTheWholeFileAreToldOnceAndOfStationsEach) {
     const RotaryTableMeasurement sound = simulate(synthetic::small_plan()).measurement;
     EXPECT_TRUE(labels_that_are_asked_for(sound).empty());
-    EXPECT_NO_THROW(refuse_wrong_labels(sound));
+    EXPECT_NO_THROW(WrongLabels(sound, PlaceSearch(sound).fit_each()).refuse_all());
     const std::vector<gum::Diagnostic> all = labels_that_are_asked_for(relabelled(sound, 0, {.lengths = 2.0}));
     ASSERT_EQ(all.size(), 1U);
     EXPECT_EQ(all[0].where, "lengths");
