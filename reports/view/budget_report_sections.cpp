@@ -68,7 +68,7 @@ std::vector<std::string_view> lines_of(std::string_view text) {
 
 void report_subject(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record) {
     builder.section("report_subject");
-    Facts facts = {{words("label", "title"), record.title},
+    Facts facts = {{words("label", "title"), words.localised(title_of(record))},
                    {words("label", "status"), words("certificate_status", document_status(record))}};
     if (record.certificate) {
         add_certificate_facts(facts, words, record.certificate->data);
@@ -133,7 +133,7 @@ void files_as_read(CertificateBuilder& builder, const Wording& words, const Eval
 }
 
 nlohmann::json budget_report_running_texts(const Wording& words, const EvaluationRecord& record) {
-    const std::string title = shortened(printable(record.title), 80);
+    const std::string title = shortened(printable(words.localised(title_of(record)).first()), 80);
     const std::string laboratory = record.certificate
                                        ? printable(words.localised(record.certificate->data.laboratory.name).first())
                                        : std::string();

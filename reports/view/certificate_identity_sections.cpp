@@ -595,7 +595,7 @@ nlohmann::json certificate_marks(const Wording& words, const EvaluationRecord& r
 }
 
 nlohmann::json running_texts(const Wording& words, const EvaluationRecord& record) {
-    const std::string title = shortened(printable(record.title), 80);
+    const std::string title = shortened(printable(words.localised(title_of(record)).first()), 80);
     if (!record.certificate) {
         return {{"header_left", title}, {"header_right", words("document", "mark").first()}, {"footer_left", title}};
     }
