@@ -119,8 +119,8 @@ set(GUMCERT_EDGES_evaluation                         text encoding gum/quantity 
                                                      reports/record reports/record/make reports/record/make/budget
                                                      reports/record/make/comparison reports/record/make/rotary_table
                                                      reports/record/make/circle_closure reports/record/make/certificate
-                                                     reports reports/forms reports/audit reports/studies reports/dcc
-                                                     audit/sources signing imports outputs)
+                                                     reports reports/view reports/forms reports/audit reports/studies
+                                                     reports/dcc audit/sources signing imports outputs)
 set(GUMCERT_EDGES_issuing                            gum/quantity certificate reports/record reports reports/forms
                                                      reports/dcc signing evaluation)
 set(GUMCERT_EDGES_archive_certificates               text encoding gum/quantity json gum/expression gum gum/monte_carlo

@@ -153,7 +153,7 @@ void print_written(const std::vector<outputs::OutputFile>& files) {
 
 /// A certificate that is dated later than today is not issued: reported here, and not in the record, which is the
 /// same on every day.
-/// Judges what the record cannot know: the day, the languages that are asked for, and the numbers of tables.
+/// Judges what the record cannot know: the day, the languages that are asked for, and the numbers of tables in them.
 void judge_issue(reports::EvaluationRecord& record, const std::vector<std::string>& languages,
                  const std::string& share) {
     if (!record.certificate) {
