@@ -73,4 +73,8 @@ std::vector<const Item*> items_of(const CertificateData& data) {
     return items;
 }
 
+bool has_several_items(const CertificateData& data) {
+    return items_of(data).size() > 1;
+}
+
 }  // namespace gumcert::certificate

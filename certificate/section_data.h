@@ -25,5 +25,7 @@ struct StatedBySections {
 /// What the results are of: the item of the certificate, where it states one, then those of the sections, each
 /// once.
 [[nodiscard]] std::vector<const Item*> items_of(const CertificateData& data);
+/// Whether sentences speak of the items, and not of the item.
+[[nodiscard]] bool has_several_items(const CertificateData& data);
 
 }  // namespace gumcert::certificate

@@ -122,7 +122,7 @@ set(GUMCERT_EDGES_evaluation                         text encoding gum/quantity 
                                                      reports/record reports/record/make reports/record/make/budget
                                                      reports/record/make/comparison reports/record/make/rotary_table
                                                      reports/record/make/circle_closure
-                                                     reports/record/make/certificate reports reports/forms
+                                                     reports/record/make/certificate reports reports/view reports/forms
                                                      reports/audit reports/studies reports/dcc audit/sources signing
                                                      imports outputs)
 set(GUMCERT_EDGES_issuing                            text gum/quantity certificate certificate/gates reports/record

@@ -1,12 +1,18 @@
 #include "evaluation/evaluate_job.h"
 
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string_view>
+#include <vector>
 
+#include "certificate/gates/gates.h"
 #include "evaluation/audit_evaluation.h"
 #include "jobs/job_kind.h"
+#include "reports/forms/document_forms.h"
 #include "reports/forms/record_sentences.h"
+#include "reports/forms/render.h"
+#include "reports/view/named_tables.h"
 
 namespace gumcert::evaluation {
 
@@ -34,6 +40,23 @@ std::vector<std::filesystem::path> input_files(const std::filesystem::path& job_
     }
     return files;
 }
+
+namespace {
+
+/// The results before an adjustment stand in a table of the document, as certificate data say: their numbers are those of the
+/// document in its own languages.
+void judge_named_tables(reports::EvaluationRecord& record, const std::filesystem::path& templates) {
+    if (!record.certificate || !reports::names_tables_before_adjustment(*record.certificate)) {
+        return;
+    }
+    reports::RenderAssets assets;
+    assets.templates = templates;
+    const std::vector<certificate::Finding> found = reports::findings_on_named_tables(
+        *record.certificate, reports::view_of_document(record, assets), record.certificate->data.languages);
+    certificate::add_findings(*record.certificate, found);
+}
+
+}  // namespace
 
 Evaluation evaluate_job(const std::filesystem::path& job_file, const CovarianceOutput& covariance, unsigned threads,
                         const std::filesystem::path& templates, const gum::Progress& progress,
@@ -69,6 +92,7 @@ Evaluation evaluate_job(const jobs::FileSource& source, const std::string& job_f
     }
     const std::shared_ptr<const reports::ProgramSentences> sentences = reports::read_sentences(templates);
     Evaluation evaluation = kind->evaluate(task);
+    judge_named_tables(evaluation.record, templates);
     audit_evaluation(evaluation, job_file);
     reports::identify_sentences(evaluation.record, *sentences);
     return evaluation;

@@ -28,7 +28,7 @@ reports::StudyDocument plan_job(const jobs::RotaryTableJob& job, const std::stri
     const std::vector<gum::plan::Variant> variants = gum::plan::variants_of(setting, workers);
     const std::optional<gum::plan::Proposal> proposal = gum::plan::propose(setting, now, workers, progress);
     return reports::plan::document_of({.name = job_name,
-                                       .title = job.title,
+                                       .title = job.title.in("en"),
                                        .coverage_probability = job.coverage_probability,
                                        .warnings = job.warnings},
                                       std::move(setting), now, shares, variants, proposal);

@@ -27,8 +27,9 @@ constexpr std::size_t k_most_lines = 100;  // for people, of one record
 /// Members of a record that hold no result: what was read, how, and what is said of it.
 bool holds_results(std::string_view pointer) {
     const std::string_view first = pointer.substr(0, std::min(pointer.find('/', 1), pointer.size()));
-    static const std::set<std::string_view> k_others{"/audit",   "/diagnostics", "/digest",     "/job",  "/options",
-                                                     "/profile", "/software",    "/statements", "/title"};
+    static const std::set<std::string_view> k_others{"/audit",   "/diagnostics",      "/digest",   "/job",
+                                                     "/options", "/profile",          "/software", "/statements",
+                                                     "/title",   "/title_by_language"};
     return !k_others.contains(first) && !pointer.starts_with("/certificate/data") &&
            !pointer.starts_with("/certificate/profile") && !pointer.starts_with("/certificate/findings");
 }

@@ -48,7 +48,7 @@ reports::StudyDocument simulate_job(const jobs::RotaryTableJob& stated, const st
     }
     require_a_result(studies);
     return reports::simulation::document_of({.name = job_name,
-                                             .title = job.title,
+                                             .title = job.title.in("en"),
                                              .coverage_probability = job.coverage_probability,
                                              .warnings = job.warnings},
                                             basis, studies);

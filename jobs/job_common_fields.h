@@ -27,6 +27,13 @@ void describe_head(Archive& a, std::string_view kind, std::string_view sentence 
     a.constant("kind", kind, "The kind of the job.");
 }
 
+/// Read by read_title() of jobs/certificate.
+template <class Archive>
+void describe_title(Archive& a) {
+    a.by_hand("title", R"({"anyOf": [{"$ref": "#/definitions/title"}, {"$ref": "#/definitions/certificate_text"}]})",
+              "a text, or one in each language", "Free text, for documents and digital certificates.");
+}
+
 template <class Archive, class Job>
 void describe_coverage(Archive& a, Job& job) {
     a("coverage_probability", job.coverage_probability, In{k_probability_of_results},

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "certificate/dates.h"
+#include "gum/quantity/unit.h"
 #include "laboratory/outlook.h"
 #include "text/numbers.h"
 
@@ -97,6 +98,7 @@ void by_value(const StandardRecord& record, const StandardUse& use, const Result
         return;
     }
     const double at = *use.at;
+    const std::string at_in_words = value_in_words(at, results);
     std::optional<double> least, largest;
     bool is_open = false;
     for (const CalibrationResult* result : results) {
@@ -115,16 +117,26 @@ void by_value(const StandardRecord& record, const StandardUse& use, const Result
     } else if (least && *least < at && at < *largest) {
         if (record.interpolation == Interpolation::none) {
             put(verdict, Answer::unknown,
-                text::shortest_plain(at) +
+                at_in_words +
                     " lies between two calibrated values, and the register states no "
                     "interpolation");
         }
     } else {
-        put(verdict, Answer::no, text::shortest_plain(at) + " lies outside of the values that were calibrated");
+        put(verdict, Answer::no, at_in_words + " lies outside of the values that were calibrated");
     }
 }
 
 }  // namespace
+
+std::string value_in_words(double at, const std::vector<const CalibrationResult*>& lines) {
+    std::set<std::string> units;
+    for (const CalibrationResult* line : lines) {
+        units.insert(line->nominal_unit.empty() ? line->unit : line->nominal_unit);
+    }
+    // In which of several units the number stands is not for this text to say.
+    const std::string unit = units.size() == 1 ? gum::unit_for_people(*units.begin()) : std::string();
+    return text::shortest_plain(at) + (unit.empty() ? "" : " " + unit);
+}
 
 bool is_same_value(double a, double b) {
     // Relative: nominal values of 1e-12 F and of 1e9 Ω are compared alike, and a conversion of units must not separate

@@ -51,4 +51,7 @@ struct Candidates {
 /// Whether two values of one unit are the same point of a certificate.
 [[nodiscard]] bool is_same_value(double a, double b);
 
+/// "7.5 V": a value of use with the unit of the nominal values of lines; without where they have several.
+[[nodiscard]] std::string value_in_words(double at, const std::vector<const CalibrationResult*>& lines);
+
 }  // namespace gumcert::laboratory

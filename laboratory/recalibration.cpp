@@ -4,8 +4,10 @@
 #include <cmath>
 
 #include "certificate/dates.h"
+#include "gum/quantity/decimal_rounding.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/unit.h"
+#include "gum/rounding.h"
 #include "laboratory/standard_value.h"
 #include "text/numbers.h"
 
@@ -38,10 +40,10 @@ Recalibration after(const Calibration& last, long days, std::string because) {
 
 }  // namespace
 
-long staircase_interval(const IntervalPlan& plan, double found) {
-    const double factor = std::abs(found) > plan.limit                    ? plan.reduce_by
-                          : std::abs(found) <= k_well_within * plan.limit ? plan.extend_by
-                                                                          : 1.0;
+long staircase_interval(const IntervalPlan& plan, double found, double scale) {
+    const double factor = !gum::is_at_most(std::abs(found), plan.limit, scale)                  ? plan.reduce_by
+                          : gum::is_at_most(std::abs(found), k_well_within * plan.limit, scale) ? plan.extend_by
+                                                                                                : 1.0;
     // Downwards: a day less is on the safe side.
     const double days = std::floor(static_cast<double>(plan.present_days) * factor);
     return std::clamp(static_cast<long>(std::min(days, 1e6)), plan.least_days, plan.most_days);
@@ -119,9 +121,13 @@ std::optional<Recalibration> next_calibration(const StandardRecord& record, cons
     if (series.size() < 2) {
         return after(last, plan.present_days, "staircase: one calibration so far, the interval stays");
     }
-    const double found = series.back().value - series[series.size() - 2].value;
-    return after(last, staircase_interval(in_unit, found),
-                 "staircase: found " + text::shortest_plain(found) + " " + result.unit + " from its value");
+    const double before = series[series.size() - 2].value;
+    const double found = series.back().value - before;
+    // 10.005 - 10.0041 is 0.0009 to the digits of the values, and to no more.
+    const double scale = std::max(std::abs(before), std::abs(series.back().value));
+    const std::string printed = gum::is_at_most(std::abs(found), 0.0, scale) ? "0" : gum::round_significant(found, 2);
+    return after(last, staircase_interval(in_unit, found, scale),
+                 "staircase: found " + printed + " " + gum::unit_for_people(result.unit) + " from its value");
 }
 
 }  // namespace gumcert::laboratory

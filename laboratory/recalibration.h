@@ -15,8 +15,9 @@ namespace gumcert::laboratory {
 /// Method 1, "staircase" (6.2): the interval is extended where the standard was found well within its limit, within
 /// 80 % of it, shortened where it was found outside, and kept between the two.
 /// \param found  how far the standard was from its last known value, in the unit of the limit
+/// \param scale  how large the values are of which it is the difference: their digits decide, not those of binary numbers
 /// \return whole days, between least_days and most_days
-[[nodiscard]] long staircase_interval(const IntervalPlan& plan, double found);
+[[nodiscard]] long staircase_interval(const IntervalPlan& plan, double found, double scale = 0.0);
 
 /// Method 2, control chart (6.3): the largest number of days after which |D| + k·u(D) of the drift is still within the
 /// limit, where D is the straight line through the history (linear_drift).

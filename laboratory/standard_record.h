@@ -41,9 +41,10 @@ enum class DriftKind { none, limit_per_year, linear, last_difference };
 
 struct DriftModel {
     DriftKind kind = DriftKind::none;
-    std::string reason;     ///< of `none`, or for people
-    double limit = 0.0;     ///< of `limit_per_year`: largest change in a year, in `unit`
-    std::string unit;       ///< of `limit`
+    std::string reason;  ///< of `none`, or for people
+    double limit =
+        0.0;           ///< of `limit_per_year`: largest change in a year, in `unit`, or as a share of the nominal value
+    std::string unit;  ///< of `limit`
     bool weighted = false;  ///< of `linear`: by 1/u², else all calibrations weigh alike
 };
 

@@ -3,11 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "certificate/dates.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/unit.h"
+#include "text/lists.h"
 #include "text/numbers.h"
+#include "text/visible_text.h"
 
 namespace gumcert::laboratory {
 
@@ -157,6 +162,54 @@ StandardValue linear(const StandardRecord& record, const Calibration& calibratio
     return out;
 }
 
+/// "; the lines of its certificate have range "1 V", "10 V"", where words tell them apart.
+std::string lines_there_are(const Calibration* calibration) {
+    constexpr std::size_t k_most = 12;
+    std::string text;
+    for (const auto& [word, member] : {std::pair("quantity", &CalibrationResult::quantity),
+                                       {"range", &CalibrationResult::range},
+                                       {"mode", &CalibrationResult::mode}}) {
+        std::vector<std::string> there;
+        for (std::size_t i = 0; calibration != nullptr && i < calibration->results.size(); ++i) {
+            const std::string& own = calibration->results[i].*member;
+            if (std::string quoted = text::in_quotes(own);
+                !own.empty() && std::find(there.begin(), there.end(), quoted) == there.end()) {
+                there.push_back(std::move(quoted));
+            }
+        }
+        if (!there.empty()) {
+            text += (text.empty() ? "; the lines of its certificate have " : ", ") + std::string(word) + " " +
+                    text::listed(there, k_most);
+        }
+    }
+    return text;
+}
+
+/// What a relative limit is a share of, in the unit of the value: the nominal value. The value itself may be an error or a
+/// correction, of which a share would be next to nothing.
+double magnitude_of(const StandardRecord& record, const CalibrationResult& result) {
+    const auto refuse = [&](const std::string& of) {
+        refuse_use("GC-LAB-0013", record, "a drift in \"" + record.drift.unit + "\" of " + of,
+                   "a relative drift is a share of the nominal value of a line, in a unit of its value",
+                   "state the nominal value, or the drift in the unit of the value");
+    };
+    const gum::Unit unit = gum::Unit::parse(result.unit);
+    const gum::Unit of_nominal = gum::Unit::parse(nominal_unit_of(result));
+    if (!result.nominal) {
+        refuse("a line without a nominal value");
+    }
+    if (!(of_nominal.dimension() == unit.dimension())) {
+        refuse("a value in \"" + result.unit + "\" with a nominal value in \"" + nominal_unit_of(result) + "\"");
+    }
+    if (unit.is_celsius_temperature() || of_nominal.is_celsius_temperature()) {
+        refuse("a temperature in \"" + result.unit + "\"");
+    }
+    if (*result.nominal == 0.0) {
+        refuse("a line with the nominal value 0");
+    }
+    return std::abs(unit.from_si(of_nominal.to_si(*result.nominal)));
+}
+
 }  // namespace
 
 std::vector<SeriesPoint> history_of(const StandardRecord& record, const Calibration& last,
@@ -198,12 +251,17 @@ Drift drift_of(const StandardRecord& record, const Calibration& last, const Cali
             if (model.unit != result.unit) {
                 const gum::Unit stated = gum::Unit::parse(model.unit);
                 const gum::Unit unit = gum::Unit::parse(result.unit);
-                if (!(stated.dimension() == unit.dimension())) {
+                limit = stated.difference_to_si(limit);
+                if (stated.dimension() == unit.dimension()) {
+                    limit = unit.difference_from_si(limit);
+                } else if (stated.dimension().is_one()) {
+                    limit *= magnitude_of(record, result);
+                } else {
                     refuse_use("GC-LAB-0013", record,
                                "a drift in \"" + model.unit + "\" of a value in \"" + result.unit + "\"",
-                               "a drift is a difference of values", "correct the unit");
+                               "a drift is a difference of values, or a share of the value",
+                               "state it in the unit of the value, or in percent or ppm of it");
                 }
-                limit = unit.difference_from_si(stated.difference_to_si(limit));
             }
             return drift_within_limit(limit, days);
         }
@@ -220,12 +278,12 @@ StandardValue value_of_standard(const StandardRecord& record, const StandardUse&
     if (found.calibration == nullptr || found.results.empty()) {
         refuse_use("GC-LAB-0014", record, found.verdict.because,
                    "an input takes the value of one line of a certificate",
-                   "name another standard, or correct the use");
+                   "name another standard, or correct the use" + lines_there_are(found.calibration));
     }
     if (!found.is_narrowed) {
         refuse_use("GC-LAB-0014", record, found.verdict.because,
                    "an input takes the value of one line of a certificate",
-                   "state \"quantity\", \"range\" or \"mode\"");
+                   "state \"quantity\", \"range\" or \"mode\"" + lines_there_are(found.calibration));
     }
     const Calibration& calibration = *found.calibration;
     const double days = static_cast<double>(certificate::days_between(calibration.calibrated, use.date).value_or(0));
@@ -268,7 +326,7 @@ StandardValue value_of_standard(const StandardRecord& record, const StandardUse&
     if (!is_between || record.interpolation == Interpolation::none) {
         refuse_use(
             "GC-LAB-0014", record,
-            "no calibrated value at " + text::shortest_plain(at) + (is_between ? "" : ", and none beyond it"),
+            "no calibrated value at " + value_in_words(at, found.results) + (is_between ? "" : ", and none beyond it"),
             is_between ? "between calibrated values the register says how to interpolate" : "nothing is extrapolated",
             is_between ? "state \"interpolation\" in the register, or use a calibrated value"
                        : "use the standard at its calibrated values");

@@ -83,7 +83,8 @@ void method(FindingList& found, const CertificateData& data, bool by_sections) {
                           !is_within(last, m.valid_from, m.valid_to))) {
         found.critical("P08", iso_17025("7.2.1"), "/method/valid_from",
                        "version " + m.version + " of the method is not valid on the dates of performance (valid " +
-                           (m.valid_from.empty() ? "" : "from " + m.valid_from + " ") +
+                           (m.valid_from.empty() ? "" : "from " + m.valid_from) +
+                           (m.valid_from.empty() || m.valid_to.empty() ? "" : " ") +
                            (m.valid_to.empty() ? "" : "to " + m.valid_to) + ")",
                        "State the version that was used, or correct the dates.");
     }

@@ -1,12 +1,14 @@
 #include "certificate/gates/finding_list.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <iterator>
 #include <string_view>
 #include <utility>
 
 #include "certificate/result_names.h"
 #include "certificate/stated_text.h"
+#include "text/lists.h"
 #include "text/visible_text.h"
 
 namespace gumcert::certificate {
@@ -36,6 +38,88 @@ void FindingList::item(FindingSeverity severity, char letter, const std::string&
 void FindingList::append(std::vector<Finding> findings) {
     findings_.insert(findings_.end(), std::make_move_iterator(findings.begin()),
                      std::make_move_iterator(findings.end()));
+}
+
+namespace {
+
+/// A sentence without its numbers: 1.2, -0.0 and 3.1E-5, but not those of names such as DR-03, and none within quotes.
+std::string without_numbers(const std::string& sentence) {
+    constexpr char k_quote = 0x22;
+    const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+    std::string out;
+    bool quoted = false;
+    for (std::size_t i = 0; i < sentence.size(); ++i) {
+        quoted = quoted != (sentence[i] == k_quote);
+        const bool after_sign = !out.empty() && out.back() == '-';
+        const std::size_t before = out.size() - (after_sign ? 1 : 0);
+        const bool begins = before == 0 || std::string_view(" (<>").find(out[before - 1]) != std::string_view::npos;
+        if (quoted || !is_digit(sentence[i]) || !begins) {
+            out += sentence[i];
+            continue;
+        }
+        out.resize(before);
+        out += '#';
+        i = std::min(sentence.find_first_not_of("0123456789.,E+-", i), sentence.size()) - 1;
+    }
+    return out;
+}
+
+/// "E, point 3", "E, points 1, 2, 5", "E, angles 0, 30 and 12 more"; "E" of a table without points. Points that have a
+/// comma in their names stand between semicolons.
+std::string place_of_rows(const CertifiedTable& table, const CertifiedColumn& column,
+                          const std::vector<std::size_t>& rows) {
+    constexpr std::size_t k_most_named = 20;
+    std::vector<std::string> points;
+    for (const std::size_t row : rows) {
+        if (table.argument && row < table.argument->printed.size()) {
+            points.push_back(table.argument->printed[row]);
+        }
+    }
+    if (points.empty()) {
+        return column.result;
+    }
+    std::string text = column.result + ", " + table.argument->name + (points.size() > 1 ? "s " : " ");
+    if (std::ranges::none_of(points, [](const std::string& p) { return p.find(", ") != std::string::npos; })) {
+        return text + text::listed(points, k_most_named);
+    }
+    const std::size_t named = std::min(points.size(), k_most_named);
+    for (std::size_t i = 0; i < named; ++i) {
+        text += (i == 0 ? "" : "; ") + points[i];
+    }
+    return points.size() > named ? text + " and " + std::to_string(points.size() - named) + " more" : text;
+}
+
+}  // namespace
+
+void FindingList::add_by_cause(const CertifiedTable& table, const CertifiedColumn& column,
+                               const std::vector<FoundInRow>& of_rows) {
+    struct Cause {
+        std::string words;
+        std::vector<const FoundInRow*> found;
+    };
+    std::vector<Cause> causes;
+    for (const FoundInRow& one : of_rows) {
+        const Finding& f = one.finding;
+        const std::string words = f.id + "\n" + std::to_string(static_cast<int>(f.severity)) + "\n" +
+                                  without_numbers(f.what) + "\n" + f.action;
+        const auto known = std::ranges::find(causes, words, &Cause::words);
+        (known == causes.end() ? causes.emplace_back(Cause{.words = words, .found = {}}) : *known)
+            .found.push_back(&one);
+    }
+    for (const Cause& cause : causes) {
+        const FoundInRow& first = *cause.found.front();
+        std::vector<std::size_t> rows;
+        std::ranges::transform(cause.found, std::back_inserter(rows), &FoundInRow::row);
+        Finding finding = first.finding;
+        finding.where = place_of_rows(table, column, rows);
+        const bool has_point = table.argument && first.row < table.argument->printed.size();
+        if (has_point &&
+            std::ranges::any_of(cause.found, [&](const auto* one) { return one->finding.what != finding.what; })) {
+            finding.what +=
+                "; the numbers are those of " + table.argument->name + " " + table.argument->printed[first.row];
+        }
+        findings_.push_back(std::move(finding));
+    }
 }
 
 bool FindingList::add_gravest(const std::vector<Finding>& of_points) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <utility>
 #include <vector>
@@ -7,6 +8,12 @@
 #include "certificate/certified_results.h"
 
 namespace gumcert::certificate {
+
+/// What is wrong with one value of a column.
+struct FoundInRow {
+    std::size_t row = 0;
+    Finding finding;  ///< its place is not read
+};
 
 /// Collects the findings of a gate.
 class FindingList {
@@ -32,6 +39,11 @@ public:
               const std::string& action);
 
     void append(std::vector<Finding> findings);
+
+    /// What was found of the values of one column, value by value: one finding a cause, which lists its points. Findings
+    /// have one cause where they say the same but for their numbers; those of the first one are told.
+    void add_by_cause(const CertifiedTable& table, const CertifiedColumn& column,
+                      const std::vector<FoundInRow>& of_rows);
 
     /// Of findings that say the same of many points, the gravest, and the first of equals. None where there are none.
     /// \return whether there was one

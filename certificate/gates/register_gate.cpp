@@ -1,12 +1,16 @@
 #include "certificate/gates/register_gate.h"
 
 #include <algorithm>
+#include <map>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "certificate/dates.h"
 #include "certificate/gates/finding_list.h"
 #include "certificate/stated_text.h"
+#include "text/lists.h"
 
 namespace gumcert::certificate {
 
@@ -24,14 +28,25 @@ void contradictions(FindingList& found, const LaboratoryRegister& registered) {
 }
 
 void standards(FindingList& found, const LaboratoryRegister& registered) {
+    std::map<std::pair<std::string, std::string>, std::vector<std::string>> inputs;  // by standard and reason
     for (const LaboratoryRegister::Use& use : registered.uses) {
-        if (use.answer == "yes") {
+        std::vector<std::string>& names = inputs[{use.standard, use.because}];
+        if (std::find(names.begin(), names.end(), use.input) == names.end()) {
+            names.push_back(use.input);
+        }
+    }
+    for (const LaboratoryRegister::Use& use : registered.uses) {
+        // The points of a table use a standard for one reason, as a rule: it is told once, with the inputs.
+        const auto found_inputs = inputs.extract({use.standard, use.because});
+        if (use.answer == "yes" || found_inputs.empty()) {
             continue;
         }
+        const std::vector<std::string>& names = found_inputs.mapped();
         // "No" is known to be wrong. Where nobody knows, the issue is not blocked, but the certificate does not stay
         // silent.
         const bool is_refuted = use.answer == "no";
-        found.add(is_refuted ? FindingSeverity::critical : FindingSeverity::major, "T11", iso_17025("6.4"), use.input,
+        found.add(is_refuted ? FindingSeverity::critical : FindingSeverity::major, "T11", iso_17025("6.4"),
+                  names.size() == 1 ? names.front() : "inputs " + text::listed(names),
                   std::string(is_refuted ? "the standard \"" + use.standard + "\" cannot be used here: "
                                          : "it is not known whether the standard \"" + use.standard +
                                                "\" can be used here: ") +

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "certificate/dates.h"
 #include "certificate/gates/accreditation_standard.h"
@@ -68,8 +70,11 @@ void accreditation(FindingList& found, const CertificateData& data) {
             "the accreditation is one by \"" + a.standard + "\", which is not one of a calibration laboratory",
             "State the accreditation by ISO/IEC 17025, or \"status\": \"not_accredited\".");
     }
+    // A scope that has ended before the work is not told again for each later day.
+    bool begins_later = false, has_ended = false;
     const auto valid_on = [&](const std::string& day, const char* what) {
-        if (!day.empty() && !is_within(day, a.valid_from, a.valid_to)) {
+        bool& is_told = is_after(a.valid_from, day) ? begins_later : has_ended;
+        if (!day.empty() && !is_within(day, a.valid_from, a.valid_to) && !std::exchange(is_told, true)) {
             found.critical("X04", k_p8, "/accreditation/valid_to",
                            "the scope of accreditation is not valid on the day of " + std::string(what) + ", " + day +
                                " (valid" + (a.valid_from.empty() ? "" : " from " + a.valid_from) +
@@ -137,6 +142,7 @@ void routes(FindingList& found, const CertificateData& data) {
 }
 
 void capabilities(FindingList& found, const CertifiedTable& table, const CertifiedColumn& column) {
+    std::vector<FoundInRow> of_rows;
     for (std::size_t row = 0; row < column.values.size(); ++row) {
         const CertifiedValue& value = column.values[row];
         if (value.scope_entry.empty() || !value.capability || !number_of(value.printed_U)) {
@@ -144,15 +150,18 @@ void capabilities(FindingList& found, const CertifiedTable& table, const Certifi
         }
         // Compared as printed, because the printed U is what the laboratory states.
         if (is_below_capability(value.printed_U, *value.capability)) {
-            const bool named = table.argument && row < table.argument->printed.size();
-            found.critical("X01", k_p14,
-                           column.result + (named ? ", " + table.argument->name + " " + table.argument->printed[row]
-                                                  : std::string()),
-                           "U is stated as " + value.printed_U + ", smaller than the capability " +
-                               value.printed_capability + " of the scope entry \"" + value.scope_entry + "\"",
-                           "State the capability, or the result as outside of the accreditation.");
+            of_rows.push_back(
+                {.row = row,
+                 .finding = {.id = "X01",
+                             .clause = k_p14,
+                             .severity = FindingSeverity::critical,
+                             .where = {},
+                             .what = "U is stated as " + value.printed_U + ", smaller than the capability " +
+                                     value.printed_capability + " of the scope entry \"" + value.scope_entry + "\"",
+                             .action = "State the capability, or the result as outside of the accreditation."}});
         }
     }
+    found.add_by_cause(table, column, of_rows);
 }
 
 void mixed(FindingList& found, const std::string& result, const Tally& tally, const Profile& profile) {

@@ -1,6 +1,9 @@
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "certificate/gates/cited_documents.h"
 #include "certificate/gates/finding_list.h"
@@ -13,21 +16,15 @@ namespace gumcert::certificate {
 
 namespace {
 
+// What is found of one value has no place: FindingList::add_by_cause() names the points.
+
 bool is_negative_zero(const std::string& printed) {
     return printed.starts_with('-') && printed.find_first_of("123456789") == std::string::npos;
 }
 
-/// "EXA", or "EXA, angle 30" where one row of a table is meant.
-std::string name_of(const CertifiedTable& table, const CertifiedColumn& column, std::size_t row) {
-    if (!table.argument || row >= table.argument->printed.size()) {
-        return column.result;
-    }
-    return column.result + ", " + table.argument->name + " " + table.argument->printed[row];
-}
-
-void digits(FindingList& found, const std::string& where, const CertifiedValue& value, int most) {
+void digits(FindingList& found, const CertifiedValue& value, int most) {
     if (is_negative_zero(value.printed_value)) {
-        found.add(FindingSeverity::minor, "R06", k_p14, where, "the value is printed as " + value.printed_value,
+        found.add(FindingSeverity::minor, "R06", k_p14, "", "the value is printed as " + value.printed_value,
                   "Zero has no sign.");
     }
     if (value.printed_U.empty() || value.printed_U == "0") {
@@ -35,18 +32,18 @@ void digits(FindingList& found, const std::string& where, const CertifiedValue& 
     }
     if (significant_digits(value.printed_U) > most) {
         found.major(
-            "R01", k_p14, where,
+            "R01", k_p14, "",
             "U is printed as " + value.printed_U + ", with more than " + std::to_string(most) + " significant digits",
             "State U with two significant digits at most.");
     }
     if (decimals_of(value.printed_value) != decimals_of(value.printed_U)) {
-        found.major("R02", k_p14, where,
+        found.major("R02", k_p14, "",
                     "value " + value.printed_value + " and U " + value.printed_U + " end at different decimal places",
                     "Round the value to the last place of U.");
     }
     // An interval of Monte Carlo has no k that anything was multiplied by.
     if (value.printed_k.empty() && value.coverage != "monte_carlo") {
-        found.critical("R04", k_p14, where, "U is stated without its coverage factor", "State k.");
+        found.critical("R04", k_p14, "", "U is stated without its coverage factor", "State k.");
     }
 }
 
@@ -61,45 +58,45 @@ bool is_outside(const CertifiedValue& value, const Verdict& v) {
 }
 
 /// Judged by the numbers, whatever the rule is called: its parameters may leave nothing of its guard band.
-void poor_measurement(FindingList& found, const std::string& where, const CertifiedValue& value, const Verdict& v) {
+void poor_measurement(FindingList& found, const CertifiedValue& value, const Verdict& v) {
     constexpr double k_even = 0.5 - 1e-9;
     constexpr double k_proven = 0.05 + 1e-9;  // a smaller specific risk need not be reported
     const bool passes = v.verdict == "pass" || v.verdict == "conditional_pass";
     const bool unguarded = passes && (v.rule == "DR-01" || v.rule == "DR-12" || v.specific_risk > k_proven);
     if (passes && is_outside(value, v)) {
-        found.critical("D08", iso_17025("7.8.6.1"), where,
+        found.critical("D08", iso_17025("7.8.6.1"), "",
                        "the value lies outside of the limits of \"" + v.specification + "\", and " + v.rule +
                            " passes it with a probability of conformity of " + v.printed.conformance_probability + " %",
                        "Tell the customer; agree on a rule with a guard band, or measure with a smaller uncertainty.");
     } else if (passes && v.conformance_probability < k_even) {
-        found.major("D08", iso_17025("7.8.6.1"), where,
+        found.major("D08", iso_17025("7.8.6.1"), "",
                     "the value passes \"" + v.specification + "\" by " + v.rule +
                         " with a probability of conformity of " + v.printed.conformance_probability +
                         " %: it is more probable that the item does not conform",
                     "Tell the customer; agree on a rule with a guard band, or measure with a smaller uncertainty.");
     } else if (unguarded && v.test_uncertainty_ratio && *v.test_uncertainty_ratio < 1.0) {
-        found.major("D08", iso_17025("7.8.6.1"), where,
+        found.major("D08", iso_17025("7.8.6.1"), "",
                     "U is larger than half of the tolerance of \"" + v.specification + "\" (test uncertainty ratio " +
                         v.printed.test_uncertainty_ratio + "), and " + v.rule + " accepts the value all the same",
                     "Tell the customer; agree on a rule with a guard band, or measure with a smaller uncertainty.");
     }
 }
 
-void verdict(FindingList& found, const std::string& where, const CertifiedValue& value) {
+void verdict(FindingList& found, const CertifiedValue& value) {
     const Verdict& v = *value.verdict;
     if (v.verdict == "not_applicable") {
         const bool defined = !value.external && !value.U && !value.interval && value.u == 0.0;
-        found.add(defined ? FindingSeverity::information : FindingSeverity::major, "D05", iso_17025("7.8.6.1"), where,
+        found.add(defined ? FindingSeverity::information : FindingSeverity::major, "D05", iso_17025("7.8.6.1"), "",
                   "conformity with \"" + v.specification + "\" by " + v.rule + " cannot be decided: " + v.note,
                   // Another rule does not mend a slip of the pen.
                   v.note.starts_with("the specification has the unit")
                       ? "Correct the unit of the specification, or the results that it names."
                       : "Agree with the customer on another rule, or leave the statement out.");
     }
-    poor_measurement(found, where, value, v);
+    poor_measurement(found, value, v);
     // A reader can decide with the printed numbers only, and must come to the same verdict.
     if (v.verdict != v.verdict_from_printed) {
-        found.critical("D04", iso_17025("7.8.6.1"), where,
+        found.critical("D04", iso_17025("7.8.6.1"), "",
                        "the verdict is \"" + v.verdict + "\" with the unrounded numbers and \"" +
                            v.verdict_from_printed + "\" with the printed ones",
                        "The value lies at the acceptance limit within rounding. Agree with the customer how such a "
@@ -113,15 +110,20 @@ std::vector<Finding> uncertainty_findings(const Certificate& certificate) {
     FindingList found(certificate.data);
     for (const CertifiedTable& table : certificate.tables) {
         for (const CertifiedColumn& column : table.columns) {
+            std::vector<FoundInRow> of_rows;
             for (std::size_t row = 0; row < column.values.size(); ++row) {
                 const CertifiedValue& value = column.values[row];
-                const std::string where = name_of(table, column, row);
+                FindingList of_row(certificate.data);
                 // A capability that replaces U keeps the two digits of the scope.
-                digits(found, where, value, value.raised ? 2 : std::min(2, certificate.profile.digits));
+                digits(of_row, value, value.raised ? 2 : std::min(2, certificate.profile.digits));
                 if (value.verdict) {
-                    verdict(found, where, value);
+                    verdict(of_row, value);
+                }
+                for (Finding& finding : of_row.take()) {
+                    of_rows.push_back({.row = row, .finding = std::move(finding)});
                 }
             }
+            found.add_by_cause(table, column, of_rows);
         }
     }
     worded_verdicts(found, certificate);

@@ -957,6 +957,9 @@ void BudgetInputs::read_point_array(const json& points, const std::string& point
         for (const auto& [key, value] : points[i].items()) {
             const std::string at = child_pointer(here, key);
             if (value.is_discarded()) {
+                if (const auto of = of_name_.find(key); of != of_name_.end()) {
+                    told.insert(of->second);  // what is wrong with it is said already
+                }
                 continue;
             }
             if (key == k_point) {

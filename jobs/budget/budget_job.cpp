@@ -154,7 +154,7 @@ private:
 
     void read_common(const JsonObject& root) {
         JobReader reader(root);
-        reader.read(stated_, {"title"});
+        read_title(root, {&*document_, root.pointer("title"), problems_}, job_.title);
         reader.read(stated_, {"coverage_probability"});
         reader.read(stated_, {"coverage"});
         read_unused_texts(root);

@@ -27,7 +27,7 @@ struct QuantityPart {
 
 /// A job of kind `budget`: the budget, and the job as it was read.
 struct BudgetJob : gum::Budget {
-    std::string title;
+    certificate::LocalisedText title;
     std::map<std::string, QuantityPart> input_parts, output_parts;  ///< by their names; those that state one
     /// What points have beside their inputs, and then the inputs that tables and limits name.
     std::vector<certificate::PointColumn> point_columns;

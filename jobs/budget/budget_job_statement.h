@@ -136,7 +136,7 @@ void describe(Archive& a, SectionStatement& r) {
 template <class Archive>
 void describe(Archive& a, BudgetStatement& r) {
     describe_head(a, k_budget_kind);
-    a("title", r.job.title, Line{1000}, "Free text.");
+    describe_title(a);
     a("coverage_probability", r.job.coverage_probability, In{k_probability_of_results},
       "Of all results that do not state their own; 0.9545 when left out.");
     describe_certificate(a);

@@ -224,6 +224,16 @@ void read_localised(const json& value, certificate::LocalisedText& text, bool ma
     }
 }
 
+void read_title(const JsonObject& job, const CertificatePlace& place, certificate::LocalisedText& title) {
+    constexpr std::size_t k_longest = 1000;
+    const json* stated = job.find("title");
+    if (stated != nullptr && stated->is_object()) {
+        read_localised(*stated, title, false, place);
+    } else {
+        title = job.optional_name("title", k_longest).value_or("");
+    }
+}
+
 void CertificateArchive::require(std::string_view key) const {
     if (!object_.contains(key)) {
         place_.refuse(k_certificate_missing_key, "the key " + text::in_quotes(key) + " is missing",

@@ -47,6 +47,9 @@ void refuse_type(const nlohmann::json& value, std::string_view expected, const C
 void read_localised(const nlohmann::json& value, certificate::LocalisedText& text, bool may_be_empty,
                     const CertificatePlace& place);
 
+/// The title of a job of any kind: one line of at most 1000 bytes, or a text in each language. Nothing where it is left out.
+void read_title(const JsonObject& job, const CertificatePlace& place, certificate::LocalisedText& title);
+
 // What must hold between the members of one entry; called where each member by itself was accepted.
 template <class Struct>
 void check_entry(const Struct&, const CertificatePlace&) {}

@@ -9,6 +9,7 @@
 
 #include "jobs/budget/budget_fit_statement.h"
 #include "jobs/budget/budget_statement.h"
+#include "jobs/certificate/certificate_archive.h"
 #include "jobs/certificate/certificate_statement.h"
 #include "jobs/circle_closure/circle_closure_statement.h"
 #include "jobs/csv_table.h"
@@ -77,7 +78,7 @@ private:
     void read_job(const JsonObject& root) {
         const engine::CircleClosureMeasurement& m = job_.measurement;
         JobReader reader(root);
-        reader.read(stated_, {"title"});
+        read_title(root, {&*document_, root.pointer("title"), problems_}, job_.title);
         read_unused_texts(root);
         reader.read(stated_, {"coverage_probability", "coverage"});
         reader.read(stated_, {"steps", "axis", "first_angle_deg", "artefact", "numbering", "sense", "drift"});

@@ -32,7 +32,7 @@ inline constexpr std::array k_closure_codes{k_closure_repeated_reading, k_closur
 
 /// A job of kind `circle_closure`: the request, in whose unit readings and results are, and the job as it was read.
 struct CircleClosureJob : gum::CircleClosureRequest {
-    std::string title;
+    certificate::LocalisedText title;
     gum::CoverageChoice coverage = gum::CoverageChoice::as_validated;
     std::optional<char> axis;      ///< 'A', 'B' or 'C': deviations of the table are then named EAA, EBB or ECC
     double first_angle_deg = 0.0;  ///< of the table at step 0

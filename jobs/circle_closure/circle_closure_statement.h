@@ -89,7 +89,7 @@ void describe(Archive& a, CircleClosureStatement& r) {
     constexpr Words<bool, 2> k_drifts{{{"none", false}, {"linear", true}}};
     engine::CircleClosureMeasurement& measurement = r.job.measurement;
     describe_head(a, k_circle_closure_kind);
-    a("title", r.job.title, Line{1000}, "Free text.");
+    describe_title(a);
     describe_notes(a);
     describe_coverage(a, r.job);
     describe_certificate(a);

@@ -4,6 +4,7 @@
 #include <string_view>
 #include <utility>
 
+#include "jobs/certificate/certificate_archive.h"
 #include "jobs/certificate/certificate_statement.h"
 #include "jobs/comparison/comparison_methods.h"
 #include "jobs/comparison/comparison_participants.h"
@@ -79,7 +80,8 @@ private:
 
     void read_common(const ComparisonReading& reading, const JsonObject& root) {
         JobReader reader(root);
-        reader.read(stated_, {"title", "coverage_probability"});
+        read_title(root, {&reading.document, root.pointer("title"), &reading.problems}, job_.title);
+        reader.read(stated_, {"coverage_probability"});
         read_unused_texts(root);
         reader.read(stated_, {"organiser", "artefact_stability"});
         job_.independent_sources = read_texts(reading, root, "independent_sources");

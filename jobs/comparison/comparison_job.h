@@ -100,7 +100,7 @@ using RefusedItems = std::map<std::pair<std::size_t, std::optional<std::size_t>>
 /// A job of kind `comparison`. Between laboratories it is a scheme with its results; in a comparison of methods only
 /// the coverage probability of the scheme is stated, and `different_sources` and `independent_sources`.
 struct ComparisonJob : gum::ComparisonScheme {
-    std::string title;
+    certificate::LocalisedText title;
     std::vector<ComparisonResult> results;  ///< in the order of the files
     std::vector<MissingResult> missing = {};
     /// What is known of the stability of the artefact, and where it is in the uncertainties; "" where nothing is stated.

@@ -338,7 +338,7 @@ template <class Archive>
 void describe(Archive& a, ComparisonStatement& r) {
     describe_head(a, k_comparison_kind,
                   "Between laboratories (participants), or of a method with a reference method (lab and reference).");
-    a("title", r.job.title, k_sentence, "Free text.");
+    describe_title(a);
     describe_notes(a);
     a("coverage_probability", r.job.coverage_probability, In{k_probability_of_results}, "0.9545 when left out.");
     a("organiser", r.job.organiser, k_sentence, "Of the comparison, for the report.");

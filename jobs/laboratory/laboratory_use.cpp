@@ -848,8 +848,15 @@ void LaboratoryUse::complete(JsonDocument& document, const CertificatePlace& pla
             }
         }
     }
-    complete_by_id(data, "customer", place, true);
-    complete_by_id(data, "method", place, false);
+    complete_by_id(data, "customer", place, "", true);
+    complete_by_id(data, "method", place, "", false);
+    if (const auto sections = data.find("sections"); sections != data.end() && sections->is_array()) {
+        for (std::size_t i = 0; i < sections->size(); ++i) {
+            if ((*sections)[i].is_object()) {
+                complete_by_id((*sections)[i], "method", place, child_pointer("/sections", i), false);
+            }
+        }
+    }
     complete_standards(data, place);
 }
 
@@ -876,6 +883,13 @@ bool LaboratoryUse::refuse_without_folder(json& data, const CertificatePlace& pl
     for (const char* key : {"customer", "method"}) {
         if (data.contains(key)) {
             refuse(data[key], std::string("/") + key, "");
+        }
+    }
+    if (data.contains("sections") && data["sections"].is_array()) {
+        for (std::size_t i = 0; i < data["sections"].size(); ++i) {
+            if (json& section = data["sections"][i]; section.is_object() && section.contains("method")) {
+                refuse(section["method"], child_pointer("/sections", i) + "/method", "");
+            }
         }
     }
     if (data.contains("persons") && data["persons"].is_object()) {
@@ -911,7 +925,8 @@ void LaboratoryUse::complete_object(json& data, const std::string& key, const js
     }
 }
 
-void LaboratoryUse::complete_by_id(json& data, const char* key, const CertificatePlace& place, bool is_customer) {
+void LaboratoryUse::complete_by_id(json& data, const char* key, const CertificatePlace& place, const std::string& below,
+                                   bool is_customer) {
     const auto found = data.find(key);
     if (found == data.end()) {
         return;
@@ -921,7 +936,7 @@ void LaboratoryUse::complete_by_id(json& data, const char* key, const Certificat
         return;
     }
     json& value = *found;
-    const CertificatePlace at = place.below(std::string("/") + key + (is_reference ? "/id" : ""));
+    const CertificatePlace at = place.below(below + "/" + key + (is_reference ? "/id" : ""));
     const json id = is_reference ? value["id"] : value;
     if (!id.is_string() || !LaboratoryFolder::is_identification(id.get_ref<const std::string&>())) {
         at.refuse(k_laboratory_id, described(id),
@@ -951,7 +966,7 @@ void LaboratoryUse::complete_by_id(json& data, const char* key, const Certificat
         other.erase("deviations");
         other.erase("no_deviations");
     }
-    complete_object(data, key, other, std::string("the ") + key, "");
+    complete_object(data, key, other, std::string("the ") + key, below);
 }
 
 /// Names of files are relative to the folder there, and to the job here.

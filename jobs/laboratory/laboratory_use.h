@@ -96,7 +96,9 @@ private:
     [[nodiscard]] bool refuse_without_folder(Json& data, const CertificatePlace& place);
     void complete_object(Json& data, const std::string& key, const Json& registered, const std::string& subject,
                          const std::string& pointer);
-    void complete_by_id(Json& data, const char* key, const CertificatePlace& place, bool is_customer);
+    /// \param below  pointer of the object that has the key, within the certificate data
+    void complete_by_id(Json& data, const char* key, const CertificatePlace& place, const std::string& below,
+                        bool is_customer);
     void name_in_folder(Json& object, const char* key) const;
     void complete_accreditation(Json& data, const LaboratoryFile& file);
     void complete_persons(Json& data, const LaboratoryFile& file, const CertificatePlace& place);

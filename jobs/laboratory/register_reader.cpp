@@ -134,6 +134,11 @@ private:
                               "calibrations follow each other by date, the earliest first, one a day",
                               "put them into the order of their dates");
             }
+            if (certificate::is_after(calibration.calibrated, calibration.valid_to)) {
+                object.refuse(k_laboratory_order, "valid_to",
+                              calibration.valid_to + ", before the calibration on " + calibration.calibrated,
+                              "the last day of use is not before the calibration", "correct one of the two days");
+            }
             read_results(object, calibration);
         });
         if (record_.calibrations.empty() && root.has("calibrations")) {

@@ -311,7 +311,7 @@ template <class Archive>
 void describe(Archive& a, RotaryTableStatement& r) {
     engine::RotaryTableMeasurement& measurement = r.job.measurement;
     describe_head(a, k_rotary_table_kind);
-    a("title", r.job.title, k_remark, "Free text.");
+    describe_title(a);
     a.needed("axis", measurement.axis, k_axes, "The table turns about x, y or z.");
     a("home_angle_deg", r.home_angle_deg, In{k_angle}, "One of the measured angles; 0 when left out.");
     a("datum", measurement.datum, k_datums,

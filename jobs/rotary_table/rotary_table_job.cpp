@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "gum/quantity/units.h"
+#include "jobs/certificate/certificate_archive.h"
 #include "jobs/certificate/certificate_statement.h"
 #include "jobs/job_reader.h"
 #include "jobs/laboratory/laboratory_use.h"
@@ -42,7 +43,8 @@ void read_common(const RotaryTableReading& reading) {
     const JsonObject& root = reading.root;
     RotaryTableJob& job = reading.job();
     JobReader reader(root);
-    reader.read(reading.stated, {"title", "coverage_probability"});
+    read_title(root, {&reading.document, root.pointer("title"), &reading.problems}, job.title);
+    reader.read(reading.stated, {"coverage_probability"});
     read_unused_texts(root);
     job.monte_carlo = read_monte_carlo(root, job.coverage_probability, k_validated_digits, reading.problems);
     reader.read(reading.stated, {"coverage"});

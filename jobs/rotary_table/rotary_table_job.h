@@ -42,7 +42,7 @@ enum class JobUse { evaluate, simulate, plan };
 /// Monte Carlo is in the request also where `coverage` asks for its result and nothing else is said of it. The fixture
 /// covariance is zero where a budget gives it, until that is evaluated.
 struct RotaryTableJob : gum::RotaryTableRequest {
-    std::string title;  ///< empty when the job has none
+    certificate::LocalisedText title;  ///< empty when the job has none
     gum::CoverageChoice coverage = gum::CoverageChoice::as_validated;
     /// `fixture_budget` of the request, with what a job of kind `budget` has beside it.
     std::shared_ptr<const BudgetJob> fixture_budget_job;

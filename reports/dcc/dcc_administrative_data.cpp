@@ -461,10 +461,7 @@ void texts_of_laboratory(DccWriter& w) {
         w.statement("stated_by_customer", words.filled("dcc", "stated_by_customer", {{"names", names}}));
     }
     if (d.adjustment) {
-        w.statement("adjustment",
-                    d.adjustment->adjusted
-                        ? words.filled("statement", "adjusted", {{"as_found", words.localised(d.adjustment->as_found)}})
-                        : words("statement", "not_adjusted"));
+        w.statement("adjustment", adjustment_sentence(d, *d.adjustment, words));
     }
     if (!d.sampling.empty()) {
         w.statement("sampling", words.localised(d.sampling));
@@ -508,7 +505,7 @@ void statements(DccWriter& w) {
         w.xml.close();
     }
     decision_rules(w);
-    w.statement("validity", words("sentence", "validity"));
+    w.statement("validity", validity_sentence(w.data(), words));
     if (w.record().certificate) {
         w.statement("only_item", only_item_sentence(w.data(), words));
         if (w.record().certificate->profile.reproduction_sentence_mandatory) {

@@ -85,7 +85,8 @@ std::string written(const EvaluationRecord& record, const Wording& words, const 
         w.xml.close();
     };
     if (record.sections.empty()) {
-        measurement_result("item_1", record.title.empty() ? words("dcc", "results") : Text(record.title), true);
+        measurement_result("item_1", record.title.empty() ? words("dcc", "results") : words.localised(title_of(record)),
+                           true);
     }
     for (const SectionSummary& section : record.sections) {
         w.enter_section(section.name);

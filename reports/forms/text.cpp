@@ -230,22 +230,25 @@ std::string table(const json& block) {
     // Heads in two languages take as many lines as they have words before anything else gives way. A number is never broken
     // into two lines, where it would read as another one: a table that is too wide for that is wider than the page.
     std::vector<std::size_t> least = widths;
-    std::vector<std::size_t> of_numbers(count), of_texts(count);
+    std::vector<std::size_t> of_words(count), of_numbers(count), of_texts(count);
     for (std::size_t c = 0; c < count; ++c) {
+        of_words[c] = longest_word(columns[c], block.at("rows"), c);
         if (bilingual(columns)) {
-            least[c] = std::min(widths[c], longest_word(columns[c], block.at("rows"), c));
+            least[c] = std::min(widths[c], of_words[c]);
         }
         of_numbers[c] = std::max(k_least_column, longest_number(block.at("rows"), c));
         of_texts[c] = std::max(k_least_column, longest_word_with_digits(block.at("rows"), c));
     }
-    while (total() >
-           k_columns) {  // the widest column of texts gives way; heads of numbers when no text is left to wrap
+    // The widest column of texts gives way, then heads of numbers, both between words; words are broken where that is not
+    // enough, those of texts first.
+    while (total() > k_columns) {
         std::size_t widest = count;
-        for (const int step : {0, 1, 2}) {
+        for (const int step : {0, 1, 2, 3, 4}) {
             for (std::size_t c = 0; c < count; ++c) {
-                const bool candidate = step == 0   ? widths[c] > least[c]
-                                       : step == 1 ? may_shrink[c] && widths[c] > of_texts[c]
-                                                   : !may_shrink[c] && widths[c] > of_numbers[c];
+                const std::size_t own = may_shrink[c] ? of_texts[c] : of_numbers[c];
+                const bool candidate = step == 0 ? widths[c] > least[c]
+                                                 : may_shrink[c] == (step % 2 == 1) &&
+                                                       widths[c] > (step < 3 ? std::max(own, of_words[c]) : own);
                 if (candidate && (widest == count || widths[c] > widths[widest])) {
                     widest = c;
                 }

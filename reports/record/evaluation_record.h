@@ -543,10 +543,11 @@ struct EvaluationRecord {
     static constexpr const char* k_schema = "gumcert/record/1";
 
     Software software;
-    std::string kind;  ///< "budget", "rotary_table", "circle_closure" or "comparison"
-    std::string title;
-    Shown<double> coverage_probability = {0.9545};  ///< text "95.45 %"
-    std::string job_json;                           ///< the job as read, canonical JSON text
+    std::string kind;                                   ///< "budget", "rotary_table", "circle_closure" or "comparison"
+    std::string title;                                  ///< English where it is stated in several languages
+    certificate::LocalisedText title_by_language = {};  ///< empty where `title` is for all languages
+    Shown<double> coverage_probability = {0.9545};      ///< text "95.45 %"
+    std::string job_json;                               ///< the job as read, canonical JSON text
     std::vector<InputFile> job_files;
     std::string options_json;                    ///< every tolerance and option in force, canonical JSON text
     std::vector<Result> results;                 ///< in the order of documents; an object keyed by name in JSON

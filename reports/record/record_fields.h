@@ -905,6 +905,7 @@ void describe(Archive& a, Struct& r) {
     a.constant("schema", EvaluationRecord::k_schema);
     a("kind", r.kind);  // the caller says which words it may be
     a("title", r.title);
+    a.stated("title_by_language", r.title_by_language);
     a("software", r.software);
     a("coverage_probability", r.coverage_probability.number, NumberRule::probability);
     a.group("printed", [&](auto& b) { b("coverage_probability", r.coverage_probability.text); });

@@ -16,6 +16,10 @@ certificate::LocalisedText title_of(const SectionSummary& section) {
     return section.title.empty() ? certificate::LocalisedText(section.name) : section.title;
 }
 
+certificate::LocalisedText title_of(const EvaluationRecord& record) {
+    return record.title_by_language.empty() ? certificate::LocalisedText(record.title) : record.title_by_language;
+}
+
 std::vector<std::string> equations_of(const EvaluationRecord& record, const std::string& quantity) {
     if (!record.model) {
         return {};

@@ -1,7 +1,9 @@
 #include "reports/view/budget_report_sections.h"
 
+#include "certificate/section_data.h"
 #include "reports/printable_text.h"
 #include "reports/printed_texts.h"
+#include "reports/record/record_sections.h"
 #include "reports/result_names.h"
 #include "reports/view/certificate_identity_sections.h"
 
@@ -36,7 +38,8 @@ Text person_text(const std::optional<certificate::Person>& person, const Wording
 
 void add_certificate_facts(Facts& facts, const Wording& words, const CertificateData& data) {
     add_fact(facts, words("certificate", "number"), data.number);
-    add_fact(facts, words("heading", "item"), items_in_one_line(data, words));
+    add_fact(facts, words("heading", certificate::has_several_items(data) ? "items" : "item"),
+             items_in_one_line(data, words));
     add_fact(facts, words("certificate", "customer"), words.localised(data.customer.name));
     add_fact(facts, words("certificate", "order"), data.customer.order);
     add_fact(facts, words("certificate", "performed"), from_to(data.dates.performed_from, data.dates.performed_to));
@@ -65,7 +68,7 @@ std::vector<std::string_view> lines_of(std::string_view text) {
 
 void report_subject(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record) {
     builder.section("report_subject");
-    Facts facts = {{words("label", "title"), record.title},
+    Facts facts = {{words("label", "title"), words.localised(title_of(record))},
                    {words("label", "status"), words("certificate_status", document_status(record))}};
     if (record.certificate) {
         add_certificate_facts(facts, words, record.certificate->data);
@@ -130,7 +133,7 @@ void files_as_read(CertificateBuilder& builder, const Wording& words, const Eval
 }
 
 nlohmann::json budget_report_running_texts(const Wording& words, const EvaluationRecord& record) {
-    const std::string title = shortened(printable(record.title), 80);
+    const std::string title = shortened(printable(words.localised(title_of(record)).first()), 80);
     const std::string laboratory = record.certificate
                                        ? printable(words.localised(record.certificate->data.laboratory.name).first())
                                        : std::string();

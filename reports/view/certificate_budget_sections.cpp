@@ -6,6 +6,7 @@
 #include "gum/rounding.h"
 #include "reports/plots/budget_plots.h"
 #include "reports/plots/svg_plot.h"
+#include "reports/point_headings.h"
 #include "reports/printed_texts.h"
 #include "reports/record/record_sections.h"
 #include "reports/record/reported_result.h"
@@ -112,6 +113,31 @@ void draw(CertificateBuilder& builder, const Wording& words, const Text& caption
         return;
     }
     builder.figure(plot.id, caption, plot.description, drawing);
+}
+
+/// What the job describes a result as; else what the tables of its certificate call it; "" where nothing does.
+Text meaning_of(const Result& r, const EvaluationRecord& record, const Wording& words) {
+    if (!r.description_by_language.empty()) {
+        return words.localised(r.description_by_language);
+    }
+    if (!r.description.empty() || !record.certificate) {
+        return described_result(r.description, words);
+    }
+    for (const certificate::CertifiedTable& table : record.certificate->tables) {
+        for (std::size_t i = 0; table.layout && i < table.layout->shown.size(); ++i) {
+            const certificate::ShownColumn& shown = table.layout->shown[i];
+            if (shown.show == "value" && shown.of == r.quantity && !(shown.role.empty() && shown.heading.empty())) {
+                return heading_of_shown(table, shown, words);
+            }
+        }
+    }
+    return {};
+}
+
+/// "E[1] (error of indication)": a caption stands for itself.
+Text name_in_caption(const Result& r, const EvaluationRecord& record, const Wording& words) {
+    const Text meaning = meaning_of(r, record, words);
+    return meaning.empty() ? Text(r.name) : Text(r.name + " (") + meaning + ")";
 }
 
 /// Of what is reported: "interval" where Monte Carlo gives one that U cannot stand for.
@@ -474,7 +500,9 @@ std::vector<Text> budget_line(const BudgetRow& row, const Result& result, bool p
             bracketed(row.share.text)};
 }
 
-void budget(CertificateBuilder& builder, const Wording& words, const Result& result, std::size_t number) {
+/// \param name  of the result, for the caption
+void budget(CertificateBuilder& builder, const Wording& words, const Result& result, const Text& name,
+            std::size_t number) {
     Rows rows;
     std::vector<RowKind> kinds;
     for (const BudgetRow& row : result.budget) {
@@ -495,7 +523,7 @@ void budget(CertificateBuilder& builder, const Wording& words, const Result& res
                     distribution_name(result.distribution, words), "",
                     nu_known ? degrees_of_freedom(result.nu_eff, words) : Text(), "", rounded(result.u), "100"});
     kinds.push_back(RowKind::closing);
-    builder.table("budget-" + std::to_string(number), words.fill("budget_result", {{"name", result.name}}),
+    builder.table("budget-" + std::to_string(number), words.fill("budget_result", {{"name", name}}),
                   {{words("label", "quantity_x"), ""},
                    {words("label", "estimate_x"), "", true},
                    {words("label", "u_x"), "", true},
@@ -569,12 +597,12 @@ void budgets(CertificateBuilder& builder, const Wording& words, const Evaluation
             words.fill("first_budgets", {{"shown", std::to_string(most)}, {"count", std::to_string(count)}}));
     }
     for (std::size_t i = 0; i < with_budget.size(); ++i) {
-        budget(builder, words, *with_budget[i], i);
+        const Text name = name_in_caption(*with_budget[i], record, words);
+        budget(builder, words, *with_budget[i], name, i);
         if (!tables_only && i < k_most_plots && with_budget[i]->budget.size() > 1) {
             // An input whose first derivative vanishes has no share by the law, and may be most of what trials give.
             const bool by_trials = reported_result(*with_budget[i]).method == "monte_carlo";
-            draw(builder, words,
-                 words.fill(by_trials ? "figure_shares_of_law" : "figure_shares", {{"name", with_budget[i]->name}}),
+            draw(builder, words, words.fill(by_trials ? "figure_shares_of_law" : "figure_shares", {{"name", name}}),
                  share_plot(*with_budget[i], words, "plot-shares-" + std::to_string(i)));
         }
     }
@@ -609,25 +637,27 @@ const char* verdict_of(const GufValidation& v) {
     return !v.precise_enough ? "not_precise" : v.validated ? "validated" : "not_validated";
 }
 
-void monte_carlo_of(CertificateBuilder& builder, const Wording& words, const Result& result, std::size_t number) {
+/// \param name  of the result, for captions
+void monte_carlo_of(CertificateBuilder& builder, const Wording& words, const Result& result, const Text& name,
+                    std::size_t number) {
     const MonteCarloSummary& m = *result.monte_carlo;
     const auto& error = m.numerical_error;
     const Text p = words.number(percent_text(result.coverage_probability));
     const std::string id = std::to_string(number);
-    builder.table("monte-carlo-" + id,
-                  words.fill("monte_carlo_table", {{"name", result.name},
-                                                   {"trials", words.number(m.trials.text)},
-                                                   {"seed", std::to_string(m.seed)},
-                                                   {"p", p}}),
-                  {{words("label", "quantity"), ""},
-                   {words("label", "value"), result.printed.unit, true},
-                   {words("label", "numerical_error"), result.printed.unit, true}},
-                  {{words("label", "mean_trials"), m.mean.text, m.mean.number && m.u.number ? rounded(error.mean) : ""},
-                   {words("label", "u_trials"), m.u.text, m.u.number ? rounded(error.u) : ""},
-                   {words("label", "symmetric_low"), m.symmetric.text[0], rounded(error.symmetric[0])},
-                   {words("label", "symmetric_high"), m.symmetric.text[1], rounded(error.symmetric[1])},
-                   {words("label", "shortest_low"), m.shortest.text[0], rounded(error.shortest[0])},
-                   {words("label", "shortest_high"), m.shortest.text[1], rounded(error.shortest[1])}});
+    builder.table(
+        "monte-carlo-" + id,
+        words.fill(
+            "monte_carlo_table",
+            {{"name", name}, {"trials", words.number(m.trials.text)}, {"seed", std::to_string(m.seed)}, {"p", p}}),
+        {{words("label", "quantity"), ""},
+         {words("label", "value"), result.printed.unit, true},
+         {words("label", "numerical_error"), result.printed.unit, true}},
+        {{words("label", "mean_trials"), m.mean.text, m.mean.number && m.u.number ? rounded(error.mean) : ""},
+         {words("label", "u_trials"), m.u.text, m.u.number ? rounded(error.u) : ""},
+         {words("label", "symmetric_low"), m.symmetric.text[0], rounded(error.symmetric[0])},
+         {words("label", "symmetric_high"), m.symmetric.text[1], rounded(error.symmetric[1])},
+         {words("label", "shortest_low"), m.shortest.text[0], rounded(error.shortest[0])},
+         {words("label", "shortest_high"), m.shortest.text[1], rounded(error.shortest[1])}});
     if (!m.u.number) {
         const bool by_trials = reported_result(result).method == "monte_carlo";
         builder.paragraph(words("sentence", by_trials ? "no_moments" : "no_moments_beside"));
@@ -646,7 +676,7 @@ void monte_carlo_of(CertificateBuilder& builder, const Wording& words, const Res
                                        {"interval", words("value", "interval", v.interval)}}));
     }
     if (!m.histogram.empty() && number < k_most_plots) {
-        draw(builder, words, words.fill("figure_monte_carlo", {{"name", result.name}}),
+        draw(builder, words, words.fill("figure_monte_carlo", {{"name", name}}),
              monte_carlo_plot(result, words, "plot-monte-carlo-" + id));
     }
 }
@@ -665,7 +695,7 @@ void monte_carlo(CertificateBuilder& builder, const Wording& words, const Evalua
     builder.paragraph(words("sentence", "monte_carlo"));
     const bool few = all.size() <= builder.most(k_most_budgets);
     for (std::size_t i = 0; i < (few ? all.size() : 0); ++i) {
-        monte_carlo_of(builder, words, *all[i], i);
+        monte_carlo_of(builder, words, *all[i], name_in_caption(*all[i], record, words), i);
     }
     if (few) {
         return;

@@ -39,7 +39,7 @@ json line(const Text& text, const Wording& words) {
 constexpr const char* k_mark = " †";  // of what the customer stated
 
 bool is_marked(const Text& text) {
-    return text.first().ends_with(k_mark);
+    return text.first().find(k_mark) != std::string::npos;
 }
 
 bool is_draft(const EvaluationRecord& record) {
@@ -172,7 +172,7 @@ Text item_in_one_line(const certificate::Item& item, const Wording& words) {
 
 void item_section(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record) {
     const CertificateData& data = record.certificate->data;
-    builder.section("item");
+    builder.section("item", words("heading", certificate::has_several_items(data) ? "items" : "item"));
     Facts rows = item_facts(words, data.item);
     if (certificate::stated_by_sections(data, record.certificate->tables).item) {
         // What is stated of all of them, then each one in a line; its other facts stand with its results.
@@ -186,15 +186,7 @@ void item_section(CertificateBuilder& builder, const Wording& words, const Evalu
         }
     }
     builder.definitions(rows);
-    for (const certificate::SectionData& section : data.sections) {
-        if (section.item) {
-            const Facts own = item_facts(words, *section.item);
-            rows.insert(rows.end(), own.begin(), own.end());
-        }
-    }
-    if (std::any_of(rows.begin(), rows.end(), [](const auto& row) { return is_marked(row.second); })) {
-        builder.paragraph(words("statement", "stated_by_customer"));
-    }
+    explain_marks(builder, words, rows);
 }
 
 void customer_section(CertificateBuilder& builder, const Wording& words, const certificate::Customer& customer) {
@@ -512,6 +504,12 @@ Facts item_facts(const Wording& words, const certificate::Item& item) {
     return rows;
 }
 
+void explain_marks(CertificateBuilder& builder, const Wording& words, const Facts& facts) {
+    if (std::any_of(facts.begin(), facts.end(), [](const auto& fact) { return is_marked(fact.second); })) {
+        builder.paragraph(words("statement", "stated_by_customer"));
+    }
+}
+
 Text items_in_one_line(const CertificateData& data, const Wording& words) {
     Text text;
     for (const certificate::Item* item : certificate::items_of(data)) {
@@ -523,7 +521,18 @@ Text items_in_one_line(const CertificateData& data, const Wording& words) {
 }
 
 Text only_item_sentence(const CertificateData& data, const Wording& words) {
-    return words("statement", certificate::items_of(data).size() > 1 ? "only_items" : "only_item");
+    return words("statement", certificate::has_several_items(data) ? "only_items" : "only_item");
+}
+
+Text adjustment_sentence(const CertificateData& data, const certificate::Adjustment& adjustment, const Wording& words) {
+    const bool several = certificate::has_several_items(data);
+    return adjustment.adjusted ? words.filled("statement", several ? "adjusted_items" : "adjusted",
+                                              {{"as_found", words.localised(adjustment.as_found)}})
+                               : words("statement", several ? "not_adjusted_items" : "not_adjusted");
+}
+
+Text validity_sentence(const CertificateData& data, const Wording& words) {
+    return words("sentence", certificate::has_several_items(data) ? "validity_items" : "validity");
 }
 
 Text item_text(const certificate::Item& item, const std::string& key, const Text& text) {
@@ -586,7 +595,7 @@ nlohmann::json certificate_marks(const Wording& words, const EvaluationRecord& r
 }
 
 nlohmann::json running_texts(const Wording& words, const EvaluationRecord& record) {
-    const std::string title = shortened(printable(record.title), 80);
+    const std::string title = shortened(printable(words.localised(title_of(record)).first()), 80);
     if (!record.certificate) {
         return {{"header_left", title}, {"header_right", words("document", "mark").first()}, {"footer_left", title}};
     }

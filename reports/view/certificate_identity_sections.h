@@ -48,11 +48,21 @@ namespace gumcert::reports {
 /// What a certificate says of an item. Facts that an assessor looks for stand there even when nothing was stated: "–".
 [[nodiscard]] Facts item_facts(const Wording& words, const certificate::Item& item);
 
+/// What † means, below facts of which one has it; nothing where none has.
+void explain_marks(CertificateBuilder& builder, const Wording& words, const Facts& facts);
+
 /// Description, manufacturer, type and numbers of all items of a certificate.
 [[nodiscard]] Text items_in_one_line(const certificate::CertificateData& data, const Wording& words);
 
 /// That the results are of what was calibrated only (ISO/IEC 17025:2017, 7.8.2.1 l).
 [[nodiscard]] Text only_item_sentence(const certificate::CertificateData& data, const Wording& words);
+
+/// Whether the item was adjusted (ISO/IEC 17025:2017, 7.8.4.1 d); of several items, whether any was.
+[[nodiscard]] Text adjustment_sentence(const certificate::CertificateData& data,
+                                       const certificate::Adjustment& adjustment, const Wording& words);
+
+/// For what the uncertainty holds: not for the item, or the items, after the calibration.
+[[nodiscard]] Text validity_sentence(const certificate::CertificateData& data, const Wording& words);
 
 /// A text of the certificate data, marked with † where the customer stated it.
 [[nodiscard]] Text item_text(const certificate::Item& item, const std::string& key, const Text& text);

@@ -107,7 +107,8 @@ void opinions_section(CertificateBuilder& builder, const Wording& words, const C
         return;
     }
     builder.section("opinions");
-    Text sentence = words("statement", "opinions");
+    Text sentence =
+        words("statement", certificate::has_several_items(certificate.data) ? "opinions_items" : "opinions");
     if (certificate.symbol && !certificate.profile.opinions_with_symbol) {
         sentence += " " + words("statement", "opinions_not_accredited");
     }
@@ -366,6 +367,7 @@ void section_facts(CertificateBuilder& builder, const Wording& words, const Cert
     add_fact(rows, words("certificate", "standard_used"), standards);
     if (!rows.empty()) {
         builder.definitions(rows);
+        explain_marks(builder, words, rows);
     }
     if (!own.conditions.empty()) {
         conditions_table(builder, words, "conditions-" + id, own.conditions);
@@ -430,10 +432,7 @@ void result_sections(CertificateBuilder& builder, const Wording& words, const Ev
     const CertifiedOverview overview(certificate);
     builder.section("certified_results");
     if (certificate.data.adjustment) {
-        const certificate::Adjustment& a = *certificate.data.adjustment;
-        builder.paragraph(a.adjusted
-                              ? words.filled("statement", "adjusted", {{"as_found", words.localised(a.as_found)}})
-                              : words("statement", "not_adjusted"));
+        builder.paragraph(adjustment_sentence(certificate.data, *certificate.data.adjustment, words));
     }
     const auto shown = [&](const CertifiedValue& v) { return !overview.separates() || !overview.is_outside(v); };
     const std::size_t absent_before = builder.absent_cells();

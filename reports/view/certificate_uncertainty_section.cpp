@@ -370,7 +370,7 @@ void uncertainty_section(CertificateBuilder& builder, const Wording& words, cons
         builder.paragraph(words.filled("statement", annexed ? "contributions" : "contributions_in_record",
                                        {{"names", enumerated(names, words)}}));
     }
-    builder.paragraph(words.fill("validity", {}));
+    builder.paragraph(validity_sentence(record.certificate->data, words));
 }
 
 }  // namespace gumcert::reports

@@ -3,6 +3,7 @@
 #include "certificate/dates.h"
 #include "gum/quantity/diagnostic.h"
 #include "reports/printable_text.h"
+#include "reports/record/record_sections.h"
 #include "reports/view/budget_report_sections.h"
 #include "reports/view/certificate_builder.h"
 #include "reports/view/certificate_identity_sections.h"
@@ -154,12 +155,13 @@ json pages(const Wording& words) {
 
 /// What documents of all sorts say of themselves.
 json frame(const Wording& words, const EvaluationRecord& record) {
-    json view = {{"language", words.language()}, {"running_title", shortened(printable(record.title), 80)},
+    const Text title = words.localised(title_of(record));
+    json view = {{"language", words.language()}, {"running_title", shortened(printable(title.first()), 80)},
                  {"pages", pages(words)},        {"created", date_of_creation(record)},
                  {"attachment", json::array()},  {"status", json::array()},
                  {"closing", json::array()}};
     view.update(symbols_in(record));
-    put(view, "title", record.title, words.languages());
+    put(view, "title", title, words.languages());
     return view;
 }
 

@@ -6,6 +6,7 @@
 #include "reports/plots/svg_plot.h"
 #include "reports/printable_text.h"
 #include "reports/record/record_kinds.h"
+#include "reports/record/record_sections.h"
 #include "reports/reported_results.h"
 #include "reports/view/certificate_budget_sections.h"
 #include "reports/view/certificate_builder.h"
@@ -45,7 +46,7 @@ void figure(CertificateBuilder& builder, const Text& caption, const Plot& plot) 
 void identification(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record,
                     const Facts& own = {}) {
     builder.section(record.certificate ? "evaluation" : "identification");
-    Facts rows = {{words("label", "title"), record.title},
+    Facts rows = {{words("label", "title"), words.localised(title_of(record))},
                   {words("label", "kind"), words("value", "kind", record.kind)}};
     rows.insert(rows.end(), own.begin(), own.end());
     rows.emplace_back(words("label", "coverage"), words.number(record.coverage_probability.text));
@@ -384,7 +385,7 @@ json comparison_running_texts(const Wording& words, const EvaluationRecord& reco
                                                            {{"type", type}, {"number", issuer.number}});
     const Text laboratory = words.localised(issuer.laboratory);
     const std::string name = laboratory.empty() ? record.comparison->organiser : laboratory.first();
-    const std::string title = shortened(printable(record.title), 80);
+    const std::string title = shortened(printable(words.localised(title_of(record)).first()), 80);
     return {{"header_left", name.empty() ? title : shortened(printable(name), 80)},
             {"header_right", printable(head.first())},
             {"footer_left", "gumcert-comparison-1 · " + record.software.name + " " + record.software.version}};

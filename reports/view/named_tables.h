@@ -20,7 +20,7 @@ namespace gumcert::reports {
 [[nodiscard]] bool names_tables_before_adjustment(const certificate::Certificate& certificate);
 
 /// That the results before an adjustment are said to stand in a table that the document does not have, or that has no
-/// results (R07-4d): numbers of tables are known when a document is made, and not before.
+/// results (R07-4d): numbers of tables are those of a document. What the certificate has among its findings is not told again.
 /// \param view  of the document, see certificate_view.h
 /// \param languages  in which it is printed
 [[nodiscard]] std::vector<certificate::Finding> findings_on_named_tables(const certificate::Certificate& certificate,

@@ -103,6 +103,20 @@ def wide_job(results: tuple[int, ...]) -> dict:
             "edition": "1996", "rule": {"id": "DR-04", "guard_factor": 0.5}}]}}
 
 
+def long_job(points: int) -> dict:
+    """A dial gauge at so many points: behind 68 of them the meaning of the verdicts alone would stand on the last page."""
+    return {
+        "schema": "gumcert/job/1", "kind": "budget", "title": "Dial gauge", "model": ["e = x + d - s"],
+        "inputs": {"s": {"unit": "mm", "constant": True, "role": "reference"}, "x": {"unit": "mm", "u": 0.0005, "role": "indication"},
+                   "d": {"unit": "mm", "value": 0, "half_width": 0.001}},
+        "outputs": {"e": {"unit": "um", "role": "error"}},
+        "points": [{"s": round(0.2 * i, 1), "x": round(0.2 * i + 0.0005, 4)} for i in range(1, points + 1)],
+        "certificate": {"annexes": "none", "specifications": [{
+            "id": "class", "results": ["e"], "lower": -10, "upper": 10, "unit": "um", "document": "DS-77", "edition": "3",
+            "rule": {"id": "DR-03"}}]}}
+
+
+LONG = (64, 66, 68, 70)
 # Columns side by side: 12, 15 and 18.
 WIDE = ((5, 5), (5, 5, 3), (5, 5, 3, 3))
 
@@ -117,11 +131,11 @@ def planted_problems(folder: Path) -> list[str]:
     return problems
 
 
-def wide_problems(program: str, results: tuple[int, ...]) -> list[str]:
-    with tempfile.TemporaryDirectory() as name:
-        job = Path(name) / f"{2 + sum(results)} columns.json"
-        job.write_text(json.dumps(wide_job(results)), encoding="utf-8")
-        return example_problems(program, str(job), LANGUAGES)
+def made_up_problems(program: str, name: str, job: dict, languages: tuple[str, ...]) -> list[str]:
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / f"{name}.json"
+        file.write_text(json.dumps(job), encoding="utf-8")
+        return example_problems(program, str(file), languages)
 
 
 def example_problems(program: str, job: str, languages: tuple[str, ...]) -> list[str]:
@@ -156,7 +170,9 @@ def main() -> int:
         jobs = ALL if arguments.all else FEW
         for found in pool.map(lambda job: example_problems(arguments.program, *job), jobs):
             problems += found
-        for found in pool.map(lambda results: wide_problems(arguments.program, results), WIDE):
+        made_up = [(f"{2 + sum(results)} columns", wide_job(results), LANGUAGES) for results in WIDE]
+        made_up += [(f"{points} points", long_job(points), ("en",)) for points in LONG]
+        for found in pool.map(lambda job: made_up_problems(arguments.program, *job), made_up):
             problems += found
     for problem in problems:
         print(problem)

@@ -22,7 +22,10 @@ reports::EvaluationRecord record_head(std::string_view kind, const JobHead& job,
     record.software.version = k_version;
     record.software.commit = k_commit;
     record.kind = kind;
-    record.title = job.title;
+    record.title = job.title.in("en");
+    if (!job.title.by_language.empty()) {
+        record.title_by_language = job.title;
+    }
     record.coverage_probability = {job.coverage_probability,
                                    certificate::printed_coverage_probability(job.coverage_probability) + " %"};
     record.job_json = gumcert::json::canonical_json(job.document);

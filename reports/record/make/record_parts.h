@@ -23,7 +23,7 @@ namespace gumcert::reports {
 
 /// What a job says of itself, and what was noted while it was read and evaluated.
 struct JobHead {
-    const std::string& title;
+    const certificate::LocalisedText& title;
     double coverage_probability = 0.0;
     const nlohmann::json& document;
     const std::vector<gum::Diagnostic>& warnings;

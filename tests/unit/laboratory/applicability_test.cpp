@@ -1,5 +1,6 @@
 #include "laboratory/applicability.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "laboratory/outlook.h"
@@ -95,6 +96,20 @@ TEST(ApplicabilityTest, ValuesAreCalibratedOrBetweenCalibratedOnes) {
     EXPECT_EQ(answer_of(record, use), Answer::no);
     record.calibrations.back().results[1].nominal.reset();
     EXPECT_EQ(answer_of(record, use), Answer::unknown);
+}
+
+TEST(ApplicabilityTest, SaysTheValueWithItsUnit) {
+    const StandardRecord record = two_ranges();
+    EXPECT_THAT(applicability(record, {.range = "100 V", .at = 101.0, .date = "2026-06-01"}).because,
+                testing::HasSubstr("101 V lies outside"));
+    EXPECT_EQ(value_in_words(7.5, {}), "7.5");
+    CalibrationResult volts, millivolts;
+    volts.unit = "V";
+    millivolts.unit = "V";
+    millivolts.nominal_unit = "mV";
+    EXPECT_EQ(value_in_words(7.5, {&volts}), "7.5 V");
+    EXPECT_EQ(value_in_words(7.5, {&millivolts}), "7.5 mV");
+    EXPECT_EQ(value_in_words(7.5, {&volts, &millivolts}), "7.5") << "nobody can tell which";
 }
 
 TEST(ApplicabilityTest, NoGoesBeforeUnknown) {

@@ -70,6 +70,8 @@ TEST(RecalibrationTest, TheRecordProposesADay) {
     record.interval->limit = 2100.0;
     record.interval->unit = "mV";
     EXPECT_EQ(next_calibration(record, line)->days, 365);  // between 80 % and all of it
+    record.interval->limit = 2000.0;
+    EXPECT_EQ(next_calibration(record, line)->days, 365);  // on the limit is within it
     record.interval->limit = 1.0;
     record.interval->unit = "V";
     record.interval->method = IntervalMethod::control_chart;
@@ -80,6 +82,27 @@ TEST(RecalibrationTest, TheRecordProposesADay) {
     EXPECT_EQ(next_calibration(record, line)->due, "2026-07-20");  // 250 h in 100 days, 250 h more
     record.interval->readings.clear();
     EXPECT_EQ(next_calibration(record, line)->due, "");
+}
+
+// 10.005 - 10.0042 is 0.0008 in decimal numbers, and more than that in binary ones.
+TEST(RecalibrationTest, FindsWhatTheDigitsOfTheCertificatesSay) {
+    StandardRecord record = test::three_calibrations();
+    record.interval = staircase();
+    record.interval->most_days = 1000;
+    std::vector<Calibration>& calibrations = record.calibrations;
+    const auto next = [&](double before, double last, double limit) {
+        calibrations[calibrations.size() - 2].results.front().value = before;
+        calibrations.back().results.front().value = last;
+        record.interval->limit = limit;
+        return *next_calibration(record, calibrations.back().results.front());
+    };
+    for (const double start : {10.0042, 100.0037, 1.0001, 999.1}) {
+        EXPECT_EQ(next(start, start + 0.0008, 0.001).days, 547) << start;
+        EXPECT_EQ(next(start, start + 0.001, 0.001).days, 365) << start;
+        EXPECT_EQ(next(start, start - 0.0011, 0.001).days, 255) << start;
+    }
+    EXPECT_EQ(next(10.0041, 10.005, 0.002).because, "staircase: found 0.00090 V from its value");
+    EXPECT_EQ(next(10.005, 10.005, 0.002).because, "staircase: found 0 V from its value");
 }
 
 TEST(RecalibrationTest, DaysAreThoseOfTheCalendar) {

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <string>
+
 #include "gum/quantity/diagnostic.h"
 #include "tests/support/sample_standard.h"
 
@@ -50,6 +52,47 @@ TEST(StandardValueTest, DriftIsThatOfTheModel) {
     EXPECT_EQ(code_of(record, {.date = "2025-06-01"}), "GC-LAB-0012");  // two calibrations up to then
     record.drift = {DriftKind::limit_per_year, "", 1.0, "K", false};
     EXPECT_EQ(code_of(record, {.date = k_day}), "GC-LAB-0013");
+}
+
+// One limit for a calibrator: 10 ppm of 1 V and of 1000 V are not the same voltage.
+TEST(StandardValueTest, ARelativeDriftIsAShareOfTheNominalValue) {
+    StandardRecord record = curve();
+    record.drift = {DriftKind::limit_per_year, "", 3652.5, "ppm", false};
+    EXPECT_NEAR(value_of_standard(record, {.at = 10.0, .date = k_day}).drift.half_width, 1e-3, 1e-15);
+    record.drift.unit = "percent";
+    EXPECT_NEAR(value_of_standard(record, {.at = 20.0, .date = k_day}).drift.half_width, 20.0, 1e-12);
+    CalibrationResult& line = record.calibrations.back().results[1];
+    line.value = 0.1;  // an error, not near its nominal value
+    EXPECT_NEAR(value_of_standard(record, {.at = 10.0, .date = k_day}).drift.half_width, 10.0, 1e-12);
+    line.nominal_unit = "mV";  // of 10 mV, in V
+    EXPECT_NEAR(value_of_standard(record, {.at = 10.0, .date = k_day}).drift.half_width, 0.01, 1e-15);
+    line.nominal_unit = "degC";  // a resistance thermometer
+    EXPECT_EQ(code_of(record, {.at = 10.0, .date = k_day}), "GC-LAB-0013");
+    EXPECT_EQ(code_of(record, {.at = 0.0, .date = k_day}), "GC-LAB-0013");
+    line.nominal_unit.clear();
+    line.unit = "degC";
+    EXPECT_EQ(code_of(record, {.at = 10.0, .date = k_day}), "GC-LAB-0013");
+    record.calibrations.back().results = {test::line_at(10.0, 10.1, 0.4)};
+    record.calibrations.back().results[0].nominal.reset();
+    EXPECT_EQ(code_of(record, {.date = k_day}), "GC-LAB-0013");
+}
+
+TEST(StandardValueTest, SaysWhichLinesThereAre) {
+    StandardRecord record = curve();
+    record.calibrations.back().results[0].range = "1 V";
+    record.calibrations.back().results[1].range = record.calibrations.back().results[2].range = "10 V";
+    const auto said = [&](const StandardUse& use) {
+        try {
+            (void)value_of_standard(record, use);
+        } catch (const gum::InputError& error) {
+            return error.diagnostics().front().what + "; " + error.diagnostics().front().action;
+        }
+        return std::string();
+    };
+    EXPECT_THAT(said({.range = "10V", .at = 10.0, .date = k_day}),
+                testing::HasSubstr("the lines of its certificate have range \"1 V\", \"10 V\""));
+    EXPECT_THAT(said({.at = 10.0, .date = k_day}), testing::HasSubstr("have range \"1 V\", \"10 V\""));
+    EXPECT_THAT(said({.range = "10 V", .at = 15.0, .date = k_day}), testing::HasSubstr("no calibrated value at 15 V"));
 }
 
 TEST(StandardValueTest, HistoryIsInOneUnit) {

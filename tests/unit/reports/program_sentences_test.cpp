@@ -175,7 +175,8 @@ TEST(ProgramSentences, AreEachFoundAgain) {
             const auto found = all.identified(english);
             ASSERT_TRUE(found.has_value()) << id << ": " << english;
             ASSERT_EQ(found->size(), 1U) << id << ": " << english;
-            if (id != "where/point_name") {  // the same words for a name in place of a number
+            if (id != "where/point_name" &&
+                id != "finding/numbers_of_point_name") {  // the same words for a name in place of a number
                 EXPECT_EQ(found->front().id, id) << english;
                 EXPECT_EQ(found->front().arguments, arguments) << id;
             }

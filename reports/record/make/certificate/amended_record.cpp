@@ -21,6 +21,7 @@
 #include "gum/rounding.h"
 #include "reports/record/make/certificate/paired_points.h"
 #include "reports/record/make/certificate/paired_rows.h"
+#include "reports/record/record_sections.h"
 #include "text/numbers.h"
 
 namespace gumcert::reports {
@@ -570,7 +571,7 @@ std::vector<Change> changes_of_titles(const EvaluationRecord& earlier, const Eva
             changes.push_back({.kind = "title", .where = where, .before = before, .after = after});
         }
     };
-    tell("", earlier.title, later.title);
+    tell("", in_all_languages(title_of(earlier)), in_all_languages(title_of(later)));
     const auto title_of = [](const EvaluationRecord& record, const std::string& name) {
         const auto found = std::find_if(record.sections.begin(), record.sections.end(),
                                         [&](const SectionSummary& section) { return section.name == name; });

@@ -100,7 +100,7 @@ Found argument_of(const certificate::CertificateData& data, const ScopeEntry& en
 
 std::string with_unit(double value, const std::string& unit) {
     const std::string shown = gum::unit_for_people(unit);
-    return text::shortest(value) + (shown.empty() ? "" : " " + shown);
+    return text::shortest_plain(value) + (shown.empty() ? "" : " " + shown);
 }
 
 std::string out_of_range(const ScopeEntry& entry, const ScopeEntry::Range& range, double at) {

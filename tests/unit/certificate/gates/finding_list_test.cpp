@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -111,6 +112,51 @@ TEST(FindingList, AddsTheGravestOfManyAndTheFirstOfEquals) {
     const std::vector<Finding> found = list.take();
     ASSERT_EQ(found.size(), 1U);
     EXPECT_EQ(found[0].what, "b");
+}
+
+TEST(FindingList, TellsOneCauseOfManyPointsOnce) {
+    Certificate certificate = passed_certificate();
+    CertifiedTable& table = certificate.tables[0];
+    table.argument = CertifiedTable::Argument{
+        .name = "point", .unit = "", .printed_unit = "", .values = {{}, {}, {}, {}}, .printed = {"1", "2", "3", "4"}};
+    const auto finding = [](const std::string& id, const std::string& what, FindingSeverity severity = k_major) {
+        Finding one;
+        one.id = id;
+        one.what = what;
+        one.severity = severity;
+        return one;
+    };
+    FindingList list(certificate.data);
+    list.add_by_cause(table, table.columns[0],
+                      {{0, finding("D05", "no value can pass \"MPE 1\" by DR-03")},
+                       {1, finding("D05", "no value can pass \"MPE 1\" by DR-03")},
+                       {1, finding("D08", "probability of 12.5 %")},
+                       {2, finding("D08", "probability of 9 %")},
+                       {2, finding("D05", "no value can pass \"MPE 2\" by DR-03")},
+                       {3, finding("D05", "no value can pass \"MPE 1\" by DR-04")},
+                       {3, finding("D08", "probability of 1E-5 %", FindingSeverity::critical)}});
+    std::vector<std::string> told;
+    for (const Finding& f : list.take()) {
+        told.push_back(f.where + ": " + f.what);
+    }
+    EXPECT_THAT(told, testing::ElementsAre("l, points 1, 2: no value can pass \"MPE 1\" by DR-03",
+                                           "l, points 2, 3: probability of 12.5 %; the numbers are those of point 2",
+                                           "l, point 3: no value can pass \"MPE 2\" by DR-03",
+                                           "l, point 4: no value can pass \"MPE 1\" by DR-04",
+                                           "l, point 4: probability of 1E-5 %"))
+        << "names keep their numbers apart, and what is graver is another finding";
+    list.add_by_cause({}, table.columns[1], {{0, finding("R06", "the value is printed as -0.00")}});
+    EXPECT_EQ(only(list.take()).where, "EAA") << "of a table without points";
+    std::vector<FoundInRow> many;
+    table.argument->name = "angle";
+    table.argument->printed.clear();
+    for (std::size_t i = 0; i < 22; ++i) {
+        table.argument->printed.push_back(std::to_string(10 * i));
+        many.push_back({i, finding("R06", "the value is printed as -0.00")});
+    }
+    list.add_by_cause(table, table.columns[1], many);
+    const std::string where = only(list.take()).where;
+    EXPECT_TRUE(where.starts_with("EAA, angles 0, 10, 20") && where.ends_with("180, 190 and 2 more")) << where;
 }
 
 }  // namespace

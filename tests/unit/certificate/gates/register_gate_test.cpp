@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "tests/support/finding_severities.h"
 #include "tests/unit/certificate/passed_certificate.h"
@@ -50,6 +51,22 @@ TEST(RegisterGate, StandardsAreApplicableOrNotOrNobodyKnows) {
     expect_finding(use("no"), "T11", "ISO/IEC 17025:2017, 6.4", k_critical, "V");
     expect_finding(use("unknown"), "T11", "ISO/IEC 17025:2017, 6.4", k_major, "V");
     EXPECT_THAT(use("unknown").what, testing::HasSubstr("it is not known"));
+}
+
+TEST(RegisterGate, TellsOneReasonOnce) {
+    const std::vector<Finding> found = with_register([](CertificateData&, LaboratoryRegister& r) {
+        r.uses = {{"STD-1", "V", "unknown", "no day"}, {"STD-1", "V", "unknown", "no day"},
+                  {"STD-1", "W", "unknown", "no day"}, {"STD-1", "V", "no", "101 V lies outside"},
+                  {"STD-2", "V", "unknown", "no day"}, {"STD-3", "V", "yes", ""}};
+    });
+    std::vector<std::string> told;
+    for (const Finding& one : found) {
+        told.push_back(one.where + ": " + one.what);
+    }
+    EXPECT_THAT(told,
+                testing::ElementsAre(testing::AllOf(testing::StartsWith("inputs V, W: "), testing::HasSubstr("STD-1")),
+                                     testing::AllOf(testing::StartsWith("V: "), testing::HasSubstr("101 V")),
+                                     testing::AllOf(testing::StartsWith("V: "), testing::HasSubstr("STD-2"))));
 }
 
 TEST(RegisterGate, StandardsStandInRegisterAndList) {

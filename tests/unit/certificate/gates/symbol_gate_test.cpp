@@ -43,6 +43,8 @@ TEST(SymbolGate, FindsWhatForbidsTheSymbol) {
          "/accreditation/number"},
         {"not yet valid", [](Certificate& c) { c.data.accreditation->valid_from = "2026-11-19"; }, "X04", "ILAC-P8",
          k_critical, "/accreditation/valid_to"},
+        {"expired before the work", [](Certificate& c) { c.data.accreditation->valid_to = "2026-01-20"; }, "X04",
+         "ILAC-P8", k_critical, "/accreditation/valid_to"},
         {"expired before the issue", [](Certificate& c) { c.data.accreditation->valid_to = "2026-11-20"; }, "X04",
          "ILAC-P8", k_critical, "/accreditation/valid_to"},
         {"other signatory", [](Certificate& c) { c.data.accreditation->signatories = {"Deputy"}; }, "P03",

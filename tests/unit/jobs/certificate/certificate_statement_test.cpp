@@ -4,14 +4,18 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <map>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "jobs/certificate/certificate_archive.h"
 #include "jobs/certificate/certificate_codes.h"
 #include "jobs/file_source.h"
 #include "jobs/image_format.h"
@@ -160,6 +164,27 @@ TEST(CertificateStatement, TextsAreForAllLanguagesOrForEach) {
 }
 
 // What could be markup is text; the forms of a certificate escape it.
+TEST(CertificateStatement, TheTitleOfAJobIsOneTextOrOneInEachLanguage) {
+    std::size_t refusals = 0;
+    const auto title_of = [&](const std::string& text) {
+        static constexpr std::array<std::string_view, 1> k_keys{"title"};
+        ProblemList problems("job.json");
+        const JsonDocument document = parse_json_document(text, "job.json");
+        certificate::LocalisedText title;
+        read_title(JsonObject(document, "", k_keys, problems), {&document, "/title", &problems}, title);
+        refusals = problems.refusals();
+        return title;
+    };
+    EXPECT_EQ(title_of(R"({"title": "Multimeter"})"), certificate::LocalisedText("Multimeter"));
+    EXPECT_EQ(title_of(R"({"title": {"de": "Messgerät", "es": "Aparato"}})").in("es"), "Aparato");
+    EXPECT_TRUE(title_of("{}").empty());
+    EXPECT_EQ(refusals, 0U);
+    for (const char* wrong : {R"({"title": 1})", R"({"title": ""})", R"({"title": {}})", R"({"title": {"fr": "x"}})"}) {
+        EXPECT_TRUE(title_of(wrong).empty()) << wrong;
+        EXPECT_EQ(refusals, 1U) << wrong;
+    }
+}
+
 TEST(CertificateStatement, TakesTextsAsTheyAre) {
     for (const std::string text :
          {"<script>alert(1)</script>", "{{laboratory}}", "url(file:///etc/passwd)", "]]>", "&amp;", "מעבדה", "مختبر",

@@ -208,6 +208,26 @@ TEST(LaboratoryUseTest, CertificateDataAreFilledIn) {
     EXPECT_EQ(facts.signatories.size(), 2U);
 }
 
+TEST(LaboratoryUseTest, SectionsNameTheirMethods) {
+    json job = job_of({{"V", {{"standard", "STD-1"}}}}, k_work);
+    job["sections"] = {{"DC", {{"model", {"y = 2*V"}}}}, {"AC", {{"model", {"z = 3*V"}}}}};
+    job["certificate"]["sections"] = {{{"section", "DC"}, {"method", "CP-1"}},
+                                      {{"section", "AC"}, {"method", {{"id", "CP-1"}, {"no_deviations", true}}}}};
+    const BudgetJob read_job = read(job);
+    ASSERT_TRUE(read_job.certificate);
+    const auto& sections = read_job.certificate->sections;
+    ASSERT_EQ(sections.size(), 2U);
+    EXPECT_EQ(sections[0].method->version, "4");
+    EXPECT_EQ(sections[1].method->version, "4");
+    EXPECT_TRUE(sections[1].method->no_deviations);
+    job["certificate"]["sections"][1]["method"]["id"] = "../CP-1";
+    EXPECT_THAT(codes_of_job(job), testing::ElementsAre("GC-LAB-0101"));
+    job["certificate"]["sections"][1]["method"]["id"] = "CP-1";
+    job.erase("laboratory");
+    job["inputs"] = {{"V", {{"value", 1}, {"u", 0.1}}}};
+    EXPECT_THAT(codes_of_job(job), testing::ElementsAre("GC-LAB-0100", "GC-LAB-0100"));
+}
+
 TEST(LaboratoryUseTest, ContradictionsAreNoted) {
     json certificate = k_work;
     certificate["dates"] = {{"performed_from", "2027-02-01"}};
@@ -374,6 +394,22 @@ TEST(LaboratoryUseTest, AStandardIsNamedOnceForAllRows) {
     EXPECT_EQ(values_of(read_table("", list)), expected);
     list["points"] = points;
     EXPECT_EQ(values_of(read_table("", list)), expected);
+}
+
+// A point whose standard does not fit states the input all the same: that it does not is no second fault.
+TEST(LaboratoryUseTest, APointThatIsRefusedIsToldOnce) {
+    json list = input_of(k_named_once);
+    list["points"] = {{{"point", "low"}, {"V", {{"range", "10 V"}, {"at", 99}}}},
+                      {{"point", "high"}, {"V", {{"range", "100 V"}}}}};
+    std::vector<std::string> codes;
+    try {
+        (void)read_table("", list);
+    } catch (const gum::DiagnosedError& error) {
+        for (const gum::Diagnostic& diagnostic : error.diagnostics()) {
+            codes.push_back(diagnostic.code);
+        }
+    }
+    EXPECT_THAT(codes, testing::ElementsAre("GC-LAB-0014"));
 }
 
 TEST(LaboratoryUseTest, AStandardIsNamedOnceForAllNominalValues) {

@@ -82,7 +82,9 @@ TEST(RegisterReader, RefusesWhatCannotBe) {
     EXPECT_THAT(codes_of(sample_standard(), true), testing::IsEmpty());
     EXPECT_THAT(codes_with("/schema", "gumcert/job/1"), ElementsAre(k_laboratory_schema.code));
     EXPECT_THAT(codes_with("/calibrations/0/calibrated", "2026-02-30"), ElementsAre("GC-CERT-0107"));
-    EXPECT_THAT(codes_with("/calibrations/0/calibrated", "2026-02-01"), ElementsAre(k_laboratory_order.code));
+    EXPECT_THAT(codes_with("/calibrations/0/calibrated", "2026-02-01"),  // after the next one, and after its last day
+                ElementsAre(k_laboratory_order.code, k_laboratory_order.code));
+    EXPECT_THAT(codes_with("/calibrations/1/valid_to", "2020-01-01"), ElementsAre(k_laboratory_order.code));
     EXPECT_THAT(codes_with("/calibrations/0/route", "9"), ElementsAre("GC-CERT-0106"));
     EXPECT_THAT(codes_with("/calibrations/0/results/0/unit", "volts per"), ElementsAre("GC-CERT-0109"));
     EXPECT_THAT(codes_with("/calibrations/0/results/0/low", 1), ElementsAre("GC-CERT-0115"));

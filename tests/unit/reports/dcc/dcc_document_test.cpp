@@ -532,6 +532,16 @@ TEST(DccDocument, NeverLosesANumber) {
     EXPECT_THROW((void)render_dcc(record, dcc_assets({"en"})), gum::NoResultError);
 }
 
+TEST(DccDocument, HasTheTitleInTheLanguagesOfTheCertificate) {
+    EvaluationRecord record = certified_budget();
+    record.title = "Length gauge";
+    record.title_by_language.by_language = {{"en", "Length gauge"}, {"de", "Längenmaß"}};
+    record.certificate->data.languages = {"de", "en"};
+    const std::string text = checked(record);
+    EXPECT_THAT(text, HasSubstr("<dcc:content lang=\"de\">Längenmaß</dcc:content>"));
+    EXPECT_THAT(text, HasSubstr("<dcc:content lang=\"en\">Length gauge</dcc:content>"));
+}
+
 TEST(DccDocument, IsTheSameBytesEveryTime) {
     const EvaluationRecord record = certified_rotary_table();
     EXPECT_EQ(render_dcc(record, dcc_assets({})), render_dcc(record, dcc_assets({})));

@@ -386,7 +386,7 @@ TEST(Render, WorksWithoutOptionalParts) {
     r.results[0].budget = test::sample_record().comparison->reference_budget;
     const std::string text = render_text(r, assets());
     EXPECT_THAT(text, HasSubstr("offset of the fixture along y"));
-    EXPECT_THAT(text, HasSubstr("Uncertainty budget of O_y."));
+    EXPECT_THAT(text, HasSubstr("Uncertainty budget of O_y (offset of the fixture along y)."));
     EXPECT_THAT(text, Not(HasSubstr("Error motions")));
 
     EvaluationRecord home = test::sample_record();

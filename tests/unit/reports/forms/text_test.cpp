@@ -37,6 +37,41 @@ json view_of_table(const json& columns, const json& rows) {
     return view;
 }
 
+/// A table of standards has eight columns of words: they wrap between words as long as the words fit side by side.
+TEST(TextForm, BreaksNoWordOfATableWhereTheWordsFit) {
+    std::mt19937_64 drawn(1129);
+    const auto below = [&](std::size_t n) { return static_cast<std::size_t>(drawn() % n); };
+    for (int document = 0; document < 200; ++document) {
+        json columns = json::array(), cells = json::array();
+        std::vector<std::string> words;
+        std::size_t needed = 0;
+        const auto some = [&](std::size_t longest) {
+            std::string text;
+            for (std::size_t i = 0; i < 1 + below(6); ++i) {
+                words.push_back(std::string(1, static_cast<char>('a' + below(26))) +
+                                std::string(1 + below(longest), 'o'));
+                text += (text.empty() ? "" : " ") + words.back();
+            }
+            return text;
+        };
+        const std::size_t count = 2 + below(7);
+        for (std::size_t c = 0; c < count; ++c) {
+            const std::size_t longest = 3 + below(12);  // without the first letter
+            needed += longest + 2;                      // and the gap
+            columns.push_back({{"head", some(longest)}, {"head_also", json::array()}, {"unit", json::array()}});
+            columns.back()["align"] = below(4) == 0 ? "number" : "text";
+            cells.push_back(text(columns.back()["align"] == "number" ? std::to_string(below(1000)) : some(longest)));
+        }
+        if (needed > 100) {
+            continue;
+        }
+        const std::string printed = view_as_text(view_of_table(columns, {{{"kind", ""}, {"cells", cells}}}));
+        for (const std::string& word : words) {
+            ASSERT_NE(printed.find(word), std::string::npos) << word << "\n" << printed;
+        }
+    }
+}
+
 /// A number that is broken into two lines reads as another one.
 TEST(TextForm, BreaksNoNumberOfATableHoweverWideItIs) {
     std::mt19937_64 drawn(20261129);

@@ -33,6 +33,14 @@ TEST(RecordSections, AreCalledByTheirTitlesOrTheirNames) {
     EXPECT_EQ(title_of(section).in("de"), "Direct voltage");
 }
 
+TEST(RecordSections, TheTitleIsInTheLanguagesOfTheJob) {
+    EvaluationRecord record;
+    record.title = "Multimeter";
+    EXPECT_EQ(title_of(record), certificate::LocalisedText("Multimeter"));
+    record.title_by_language.by_language = {{"en", "Multimeter"}, {"es", "Multímetro"}};
+    EXPECT_EQ(title_of(record).in("es"), "Multímetro");
+}
+
 TEST(RecordSections, ARecordWithoutThemIsOne) {
     EvaluationRecord record = two_sections();
     record.sections.clear();

@@ -187,7 +187,8 @@ TEST(BudgetCertificate, LeavesOutAFigureThatNoPlotCanShow) {
                           "dominates the uncertainty of l"));
     ASSERT_FALSE(r.results[0].monte_carlo->histogram.empty());
     r.results[0].monte_carlo->symmetric.number[1] = 1e300;
-    EXPECT_THAT(text_of(r), HasSubstr("can show: l: histogram of the Monte Carlo trials"));
+    EXPECT_THAT(text_of(r),
+                testing::AllOf(HasSubstr("can show: l"), HasSubstr(": histogram of the Monte Carlo trials")));
 }
 
 /// The digits of u are those that the record holds.
@@ -387,10 +388,25 @@ TEST(BudgetCertificate, HostileNamesAreShownAsTexts) {
             EXPECT_LE(characters, 100) << line;
         }
     }
-    EXPECT_THAT(render_html(with("<b>"), assets()), HasSubstr("Uncertainty budget of &lt;b&gt;."));
+    EXPECT_THAT(render_html(with("<b>"), assets()), HasSubstr("Uncertainty budget of &lt;b&gt; (&lt;b&gt;)."));
     if (pdf_is_possible()) {
         EXPECT_THAT(render_pdf(with("#panic(\"x\") $x$ *b* `raw` @ref <label>"), assets()), HasSubstr("%PDF-1.7"));
     }
+}
+
+// "E[1]" alone tells nobody what it is a budget of.
+TEST(BudgetCertificate, CaptionsSayWhatAResultIs) {
+    EvaluationRecord record = test::sample_points_record(2);
+    record.results[0].description = "error of indication";
+    record.results[1].description = "Fehler";
+    record.results[1].description_by_language.by_language = {{"en", "error"}, {"de", "Abweichung"}};
+    const std::string name = record.results[0].name;
+    const std::string text = text_of(record);
+    EXPECT_THAT(text, HasSubstr("Uncertainty budget of " + name + " (error of indication)."));
+    EXPECT_THAT(text, HasSubstr("Monte Carlo of " + name + " (error of indication):"));
+    EXPECT_THAT(text, HasSubstr("Uncertainty budget of " + record.results[1].name + " (error)."));
+    record.results[0].description.clear();
+    EXPECT_THAT(text_of(record), HasSubstr("Uncertainty budget of " + name + "."));
 }
 
 TEST(BudgetCertificate, PointsBecomeOneTable) {

@@ -178,6 +178,62 @@ TEST(CertificateStatement, StatesMethodTraceabilityAndConditions) {
     EXPECT_THAT(text_of(sections, "conditions"), HasSubstr("Air temperature|19.8|20.3|0.1|°C|T-04|19|21|"));
 }
 
+/// A certificate of two sections, each of an item of its own.
+EvaluationRecord of_two_items() {
+    EvaluationRecord record = test::certified_budget_record();
+    certificate::CertificateData& data = record.certificate->data;
+    certificate::CertifiedTable& table = record.certificate->tables.front();
+    table.section = "first";
+    record.certificate->tables.push_back(table);
+    record.certificate->tables.back().section = "second";
+    record.sections = {{.name = "first", .title = {}, .quantities = {}},
+                       {.name = "second", .title = {}, .quantities = {}}};
+    certificate::Item item = data.item;
+    item.stated_by_customer = {"identification"};
+    data.item = {};
+    certificate::SectionData own;
+    own.section = "first";
+    own.item = item;
+    data.sections = {own, own};
+    data.sections[1].section = "second";
+    data.sections[1].item->serial_number = "SN-2";
+    data.sections[1].item->stated_by_customer.clear();
+    return record;
+}
+
+/// What a mark means stands below it, and nowhere else.
+TEST(CertificateStatement, ExplainsAMarkWhereItStands) {
+    const json sections = sections_of(of_two_items(), result_sections);
+    const std::string legend = "† Stated by the customer. The laboratory does not answer for it.";
+    EXPECT_THAT(text_of(sections, "certified-section-0"), testing::AllOf(HasSubstr("INV-55 †"), HasSubstr(legend)));
+    EXPECT_THAT(text_of(sections, "certified-section-1"), testing::AllOf(HasSubstr("=INV-55\n"), Not(HasSubstr("†"))));
+    EXPECT_THAT(text_of(sections, "certified_results"), Not(HasSubstr("†")));
+}
+
+TEST(CertificateStatement, SpeaksOfTheItemsWhereThereAreSeveral) {
+    struct Words {
+        const char *language, *one, *several;
+    };
+    for (const Words& w : {Words{"en", "The item was not adjusted", "The items were not adjusted"},
+                           Words{"de", "Der Gegenstand wurde nicht justiert", "Die Gegenstände wurden nicht justiert"},
+                           Words{"es", "El objeto no se ajustó", "Los objetos no se ajustaron"},
+                           Words{"zh-Hant", "校正件未經調整", "各校正件均未經調整"}}) {
+        EvaluationRecord several = of_two_items();
+        several.certificate->data.adjustment = certificate::Adjustment{.adjusted = false, .as_found = {}};
+        EvaluationRecord one = test::certified_budget_record();
+        one.certificate->data.adjustment = several.certificate->data.adjustment;
+        EXPECT_THAT(text_of(sections_of(several, result_sections, w.language), "certified_results"),
+                    HasSubstr(w.several));
+        EXPECT_THAT(text_of(sections_of(one, result_sections, w.language), "certified_results"),
+                    testing::AllOf(HasSubstr(w.one), Not(HasSubstr(w.several))));
+    }
+    EvaluationRecord several = of_two_items();
+    several.certificate->data.opinions.emplace_back();
+    const json closing = sections_of(several, closing_sections);
+    EXPECT_THAT(text_of(closing, "statement_of_uncertainty"), HasSubstr("long-term behaviour of the items"));
+    EXPECT_THAT(text_of(closing, "opinions"), HasSubstr("the results of these items"));
+}
+
 TEST(CertificateStatement, StatesTheRangeOfUOfAStandard) {
     EvaluationRecord record = test::certified_rotary_record();
     certificate::StandardUsed& standard = record.certificate->data.standards.front();
