@@ -10,7 +10,7 @@ namespace {
 
 using nlohmann::json;
 
-fs::path example(const std::string& file) {
+fs::path audited_example(const std::string& file) {
     return fs::path(GUMCERT_SOURCE_DIR) / "examples" / "audit" / file;
 }
 
@@ -44,7 +44,7 @@ protected:
 
 TEST_F(AuditProgram, FindsWhatIsWrongWithTheBudgetOfThePaper) {
     for (const char* const name : {"budget.csv", "budget.xlsx", "budget.json"}) {
-        const fs::path file = example("paper_fixture_budget") / name;
+        const fs::path file = audited_example("paper_fixture_budget") / name;
         const json report = audit_json(file);
         const json* mpe = finding(report, "U10");
         ASSERT_NE(mpe, nullptr) << name;
@@ -57,7 +57,7 @@ TEST_F(AuditProgram, FindsWhatIsWrongWithTheBudgetOfThePaper) {
         }
     }
     // The program adds up its own rows; the table of the paper drops a term.
-    const json table = audit_json(example("paper_fixture_budget") / "budget.csv");
+    const json table = audit_json(audited_example("paper_fixture_budget") / "budget.csv");
     ASSERT_NE(finding(table, "K01"), nullptr);
     EXPECT_NEAR(table["recomputed"]["u_c"].get<double>(), 0.4459, 1e-4);
     EXPECT_EQ(table["claimed"]["u_c"], 0.413);
@@ -67,7 +67,7 @@ TEST_F(AuditProgram, ExitCodeSaysWhetherAFindingIsCritical) {
     write_bytes(folder() / "sound.csv", k_sound);
     const Ended sound = audit({(folder() / "sound.csv").string()});
     EXPECT_EQ(sound.code, 0) << sound.out << sound.err;
-    EXPECT_EQ(audit({example("paper_fixture_budget/budget.csv").string()}).code, 1);
+    EXPECT_EQ(audit({audited_example("paper_fixture_budget/budget.csv").string()}).code, 1);
     write_bytes(folder() / "picture.pdf", "%PDF-1.7\n");
     const Ended refused = audit({(folder() / "picture.pdf").string()});
     EXPECT_EQ(refused.code, 3);
@@ -75,7 +75,7 @@ TEST_F(AuditProgram, ExitCodeSaysWhetherAFindingIsCritical) {
 }
 
 TEST_F(AuditProgram, WritesAllFormsIntoAFolder) {
-    const Ended ended = audit({example("paper_fixture_budget/budget.csv").string(), "-o", (folder() / "out").string()});
+    const Ended ended = audit({audited_example("paper_fixture_budget/budget.csv").string(), "-o", (folder() / "out").string()});
     EXPECT_EQ(ended.code, 1) << ended.err;
     for (const char* const name : {"audit.txt", "audit.json", "audit.sarif", "audit.html", "audit.pdf"}) {
         EXPECT_TRUE(fs::exists(folder() / "out" / name)) << name;
@@ -89,7 +89,7 @@ TEST_F(AuditProgram, WritesAllFormsIntoAFolder) {
 
 TEST_F(AuditProgram, TheEndingOfAFileSaysItsForm) {
     const fs::path page = folder() / "page.html";
-    (void)audit({example("paper_fixture_budget/budget.csv").string(), "-o", page.string(), "--language", "de"});
+    (void)audit({audited_example("paper_fixture_budget/budget.csv").string(), "-o", page.string(), "--language", "de"});
     EXPECT_NE(bytes_of(page).find("lang=\"de\""), std::string::npos);
     EXPECT_NE(bytes_of(page).find("Größte zulässige Messabweichung als Standardunsicherheit verwendet"),
               std::string::npos)
@@ -218,7 +218,7 @@ TEST_F(AuditProgram, AnErrorIsHeldAgainstTheScopeWhereItWasMeasured) {
 }
 
 TEST_F(AuditProgram, WaiversAreShownAndDecideOnTheExitCode) {
-    const fs::path table = example("paper_fixture_budget/budget.csv");
+    const fs::path table = audited_example("paper_fixture_budget/budget.csv");
     json waivers = json::array();
     const json report = audit_json(table);
     for (const json& one : report["findings"]) {
@@ -251,7 +251,7 @@ TEST_F(AuditProgram, WaiversAreShownAndDecideOnTheExitCode) {
 }
 
 TEST_F(AuditProgram, RunAuditsTheJobAndWritesThePage) {
-    const fs::path job = example("paper_fixture_budget/budget.json");
+    const fs::path job = audited_example("paper_fixture_budget/budget.json");
     const Ended ended =
         gumcert({"evaluate", job.string(), "-o", (folder() / "record.json").string(), "--share", GUMCERT_SOURCE_DIR});
     EXPECT_EQ(ended.code, 1) << "S15 is critical";
@@ -297,7 +297,7 @@ TEST_F(AuditProgram, ReadsACertificateAndTheOneInItsPdf) {
 }
 
 TEST_F(AuditProgram, SameFileSameBytes) {
-    const std::vector<std::string> words = {example("planted_workbook/planted.xlsx").string(), "--format", "json"};
+    const std::vector<std::string> words = {audited_example("planted_workbook/planted.xlsx").string(), "--format", "json"};
     EXPECT_EQ(audit(words).out, audit(words).out);
 }
 

@@ -9,7 +9,6 @@ namespace {
 
 using nlohmann::json;
 
-const std::vector<std::string> k_motions{"EXA", "EYA", "EZA", "EAA", "EBA", "ECA"};
 
 class CampaignRun : public ProgramTest {
 protected:
@@ -54,7 +53,7 @@ TEST_F(CampaignRun, ExactDistancesGiveBackWhatTheyWereMadeFrom) {
             EXPECT_NEAR(axis["S_arcsec"][2].get<double>(), 25.0, arcsec);
             for (const json& row : record["rotary"]["errors"]) {
                 const double wave = std::sin(2.0 * row["angle_deg"].get<double>() * std::numbers::pi / 180.0);
-                for (const std::string& name : k_motions) {
+                for (const std::string& name : k_error_motions) {
                     const double expected = name == "EXA" ? 2.0 * wave : name == "EAA" ? 4.0 * wave : 0.0;
                     EXPECT_NEAR(row[name]["value"].get<double>(), expected, 2e-3) << name << row["angle_deg"];
                 }
@@ -119,7 +118,7 @@ TEST_F(CampaignRun, HomeDatumHasNoErrorAtTheHomeAngle) {
     EXPECT_EQ(record["rotary"]["datum"], "home");
     EXPECT_EQ(record["rotary"]["home_angle_deg"], 0);
     for (const json& row : record["rotary"]["errors"]) {
-        for (const std::string& name : k_motions) {
+        for (const std::string& name : k_error_motions) {
             const json& motion = row[name];
             if (row["angle_deg"] == 0) {
                 EXPECT_EQ(motion["value"].get<double>(), 0.0) << name;

@@ -61,7 +61,7 @@ protected:
     }
 };
 
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
+std::string with_one_replaced(std::string text, const std::string& from, const std::string& to) {
     const std::size_t at = text.find(from);
     EXPECT_NE(at, std::string::npos) << from;
     return at == std::string::npos ? text : text.replace(at, from.size(), to);
@@ -88,7 +88,7 @@ TEST_F(ComparisonProgram, KeyComparison) {
     EXPECT_EQ(item["consistency"]["printed"]["p_value"], "0.0018");
     EXPECT_EQ(item["consistency"]["printed"]["birge_ratio"], "1.96");
     EXPECT_EQ(printed_of(record, "En"), (std::vector<std::string>{"-0.38", "-0.70", "0.12", "-0.58", "2.09", "-0.55"}));
-    const json subset = record_of(replaced(k_key_comparison, "weighted_mean", "largest_consistent_subset"));
+    const json subset = record_of(with_one_replaced(k_key_comparison, "weighted_mean", "largest_consistent_subset"));
     EXPECT_EQ(subset["comparison"]["items"][0]["printed"]["value"], "12.27");
     EXPECT_EQ(subset["comparison"]["items"][0]["not_consistent"], (json{"NMI5"}));
     EXPECT_EQ(subset["comparison"]["items"][0]["consistency"]["printed"]["chi_square"], "1.648");
@@ -189,11 +189,11 @@ TEST_F(ComparisonProgram, OtherKindsAreNotCompared) {
 
 TEST_F(ComparisonProgram, RefusalsLeaveNothingBehind) {
     const std::string job = k_key_comparison;
-    expect_refused(replaced(job, "\"u\": 0.10", "\"U\": 0.20"), "GC-INPUT-0504");
-    expect_refused(replaced(job, "\"u\": 0.10", "\"u\": 0.10, \"U\": 0.20, \"k\": 2"), "GC-INPUT-0503");
-    expect_refused(replaced(job, "NMI2", "NMI1"), "GC-INPUT-0508");
+    expect_refused(with_one_replaced(job, "\"u\": 0.10", "\"U\": 0.20"), "GC-INPUT-0504");
+    expect_refused(with_one_replaced(job, "\"u\": 0.10", "\"u\": 0.10, \"U\": 0.20, \"k\": 2"), "GC-INPUT-0503");
+    expect_refused(with_one_replaced(job, "NMI2", "NMI1"), "GC-INPUT-0508");
     // r = 1 with two laboratories that are independent of each other is no covariance.
-    expect_refused(replaced(job, "\"unit\": \"mm\",",
+    expect_refused(with_one_replaced(job, "\"unit\": \"mm\",",
                             "\"unit\": \"mm\", \"correlations\": [[\"NMI1\",\"NMI2\",1],[\"NMI1\",\"NMI3\",1]],"),
                    "GC-INPUT-0517");
     expect_refused(R"({"schema": "gumcert/job/1", "kind": "comparison", "unit": "mm",
@@ -203,7 +203,7 @@ TEST_F(ComparisonProgram, RefusalsLeaveNothingBehind) {
 }
 
 TEST_F(ComparisonProgram, AKindThatNobodyKnowsIsToldWithThoseThatThereAre) {
-    write_bytes(job_file(), replaced(k_key_comparison, "\"comparison\"", "\"comparision\""));
+    write_bytes(job_file(), with_one_replaced(k_key_comparison, "\"comparison\"", "\"comparision\""));
     const Ended ended = gumcert({"compare", job_file().string()});
     EXPECT_EQ(ended.code, 3);
     EXPECT_NE(ended.err.find("did you mean \"comparison\"?"), std::string::npos) << ended.err;
@@ -217,9 +217,9 @@ TEST_F(ComparisonProgram, MessagesOfSeveralJobsNameTheJob) {
     const std::string text = k_key_comparison;
     const std::map<std::string, std::string> jobs{
         {"warned", text},
-        {"refused", replaced(text, "\"u\": 0.10", "\"U\": 0.20")},
+        {"refused", with_one_replaced(text, "\"u\": 0.10", "\"U\": 0.20")},
         {"singular",
-         replaced(text, "\"unit\": \"mm\",", "\"unit\": \"mm\", \"correlations\": [[\"NMI1\",\"NMI2\",1]],")}};
+         with_one_replaced(text, "\"unit\": \"mm\",", "\"unit\": \"mm\", \"correlations\": [[\"NMI1\",\"NMI2\",1]],")}};
     std::vector<std::string> command{"run", "--share", GUMCERT_SOURCE_DIR, "--json-messages", "-q"};
     for (const auto& [name, job] : jobs) {
         write_bytes(folder() / (name + ".json"), job);
@@ -299,12 +299,12 @@ TEST_F(ComparisonProgram, BudgetsThatNameOneStandard) {
     EXPECT_EQ(record["comparison"]["shared_sources"][0]["source"], "gauge block 17");
     EXPECT_EQ(record["job"]["files"].size(), 3U) << "both budgets are files of the job";
     const json independent = record_of(
-        replaced(job, "\"unit\": \"um\",", "\"unit\": \"um\", \"independent_sources\": [\"gauge block 17\"],"));
+        with_one_replaced(job, "\"unit\": \"um\",", "\"unit\": \"um\", \"independent_sources\": [\"gauge block 17\"],"));
     EXPECT_NEAR(independent["comparison"]["points"][1]["u_D"].get<double>(), 0.5 * std::sqrt(2.0), 1e-12);
 }
 
 TEST_F(ComparisonProgram, SameBytesForAnyNumberOfThreads) {
-    const std::string job = replaced(k_key_comparison, "\"weighted_mean\"",
+    const std::string job = with_one_replaced(k_key_comparison, "\"weighted_mean\"",
                                      R"({"method": "median", "uncertainty": "trials", "trials": 20000})");
     ASSERT_EQ(compare(job, {"--threads", "1"}).code, 0);
     const std::string first = bytes_of(record_file());

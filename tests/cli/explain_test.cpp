@@ -22,10 +22,6 @@ protected:
     }
 };
 
-bool has(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
-}
-
 TEST_F(Explain, SaysWhatACodeMeansAndWhatToDo) {
     const std::string out = text({"GC-OUTLIER-0001"});
     EXPECT_EQ(lines_of(out).front(), "GC-OUTLIER-0001: warning");

@@ -14,6 +14,9 @@
 
 namespace gumcert::cli {
 
+/// Error motions of a rotary table, as records name them (ISO 230-7:2015).
+inline const std::vector<std::string> k_error_motions{"EXA", "EYA", "EZA", "EAA", "EBA", "ECA"};
+
 inline fs::path shipped_example() {
     return fs::path(GUMCERT_SOURCE_DIR) / "examples" / "rotary_table";
 }

@@ -10,10 +10,6 @@ namespace {
 
 using nlohmann::json;
 
-bool has(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
-}
-
 class LaboratoryFolderOfJobs : public ProgramTest {
 protected:
     LaboratoryFolderOfJobs() {

@@ -60,6 +60,10 @@ inline std::vector<std::string> lines_of(const std::string& text) {
     return lines;
 }
 
+inline bool has(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
 /// Every file and folder below a folder, with the content of the files: equal before and after when nothing was
 /// written, changed or removed.
 inline std::map<std::string, std::string> contents_of(const fs::path& folder) {

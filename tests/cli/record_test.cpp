@@ -12,7 +12,6 @@ namespace {
 
 using nlohmann::json;
 
-const std::vector<std::string> k_motions{"EXA", "EYA", "EZA", "EAA", "EBA", "ECA"};
 constexpr std::size_t k_angles = 36;
 constexpr std::size_t k_distances = 2592;
 
@@ -116,7 +115,7 @@ TEST_F(Record, ErrorMotionsOfEveryAngle) {
     ASSERT_EQ(errors.size(), k_angles);
     for (std::size_t i = 0; i < k_angles; ++i) {
         EXPECT_EQ(errors[i]["angle_deg"], 10.0 * static_cast<double>(i));
-        for (const std::string& name : k_motions) {
+        for (const std::string& name : k_error_motions) {
             const json& motion = errors[i].at(name);
             for (const char* const key : {"value", "u", "U", "k"}) {
                 ASSERT_TRUE(motion.at(key).is_number()) << name << " " << key;
@@ -131,7 +130,7 @@ TEST_F(Record, ErrorMotionsOfEveryAngle) {
             EXPECT_EQ(motion["printed"]["unit"], name[1] == 'X' || name[1] == 'Y' || name[1] == 'Z' ? "µm" : "″");
         }
     }
-    EXPECT_EQ(rotary()["error_names"], json(k_motions));
+    EXPECT_EQ(rotary()["error_names"], json(k_error_motions));
     EXPECT_EQ(rotary()["datum"], "axis_average_line");
     EXPECT_EQ(rotary()["method"], "joint");
     EXPECT_EQ(rotary()["axis"], "A");
@@ -159,7 +158,7 @@ void expect_printed(const json& value) {
 
 TEST_F(Record, PrintedNumbersAreTheNumbersRoundedToTheUncertainty) {
     for (const json& row : rotary()["errors"]) {
-        for (const std::string& name : k_motions) {
+        for (const std::string& name : k_error_motions) {
             SCOPED_TRACE(name + " at " + row["printed_angle"].get<std::string>());
             expect_printed(row[name]);
         }
@@ -269,7 +268,7 @@ TEST_F(Record, CovarianceFileBelongsToTheRecord) {
     // u of every quantity that the record names, in the units of the record.
     std::map<std::string, double> u;
     for (const json& row : rotary()["errors"]) {
-        for (const std::string& name : k_motions) {
+        for (const std::string& name : k_error_motions) {
             u[name + "@" + digits(row["angle_deg"])] = row[name]["u"];
         }
     }
@@ -302,7 +301,7 @@ TEST_F(Record, BudgetSharesSumToOne) {
     ASSERT_GE(rotary()["budget"].size(), 6 * k_angles + 4);
     std::map<std::string, double> u;
     for (const json& row : rotary()["errors"]) {
-        for (const std::string& name : k_motions) {
+        for (const std::string& name : k_error_motions) {
             u[name + "@" + digits(row["angle_deg"])] = row[name]["u"];
         }
     }
@@ -447,7 +446,7 @@ TEST_F(Record, CertificatePrintsTheNumbersOfTheRecord) {
         EXPECT_NE(html.find(result["printed"]["U"].get<std::string>()), std::string::npos) << name;
     }
     for (const json& row : rotary()["errors"]) {
-        for (const std::string& name : k_motions) {
+        for (const std::string& name : k_error_motions) {
             EXPECT_NE(html.find(row[name]["printed"]["value"].get<std::string>()), std::string::npos) << name;
         }
     }

@@ -12,7 +12,6 @@ namespace {
 
 using nlohmann::json;
 
-const std::vector<std::string> k_motions{"EXA", "EYA", "EZA", "EAA", "EBA", "ECA"};
 
 fs::path simulated_campaign(const std::string& name) {
     return fs::path(GUMCERT_SOURCE_DIR) / "tests" / "reference" / "campaigns" / name;
@@ -96,7 +95,7 @@ TEST_F(RotaryDepth, MonteCarloChecksEveryReportedQuantity) {
         ASSERT_EQ(rotary.at("errors").size(), 6U);
         std::size_t blocks = 0;
         for (const json& row : rotary.at("errors")) {
-            for (const std::string& name : k_motions) {
+            for (const std::string& name : k_error_motions) {
                 expect_block(row.at(name).at("monte_carlo"), name);
                 // The model is nearly linear here. The standard deviation of u of 2500 normal trials is 1.4 %.
                 const double ratio =
@@ -444,7 +443,7 @@ TEST_F(RotaryDepth, ReliabilityOfDistancesFixtureAndResults) {
         EXPECT_TRUE(std::isfinite(row.at("influence").get<double>()));
         EXPECT_GT(row.at("ratio_to_U").get<double>(), 0.0) << row;
     }
-    for (const std::string& name : k_motions) {
+    for (const std::string& name : k_error_motions) {
         EXPECT_TRUE(quantities.contains(name)) << name;
         EXPECT_TRUE(quantities.contains("reversal of " + name)) << name;
     }
