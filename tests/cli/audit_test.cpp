@@ -75,7 +75,8 @@ TEST_F(AuditProgram, ExitCodeSaysWhetherAFindingIsCritical) {
 }
 
 TEST_F(AuditProgram, WritesAllFormsIntoAFolder) {
-    const Ended ended = audit({audited_example("paper_fixture_budget/budget.csv").string(), "-o", (folder() / "out").string()});
+    const Ended ended =
+        audit({audited_example("paper_fixture_budget/budget.csv").string(), "-o", (folder() / "out").string()});
     EXPECT_EQ(ended.code, 1) << ended.err;
     for (const char* const name : {"audit.txt", "audit.json", "audit.sarif", "audit.html", "audit.pdf"}) {
         EXPECT_TRUE(fs::exists(folder() / "out" / name)) << name;
@@ -297,7 +298,8 @@ TEST_F(AuditProgram, ReadsACertificateAndTheOneInItsPdf) {
 }
 
 TEST_F(AuditProgram, SameFileSameBytes) {
-    const std::vector<std::string> words = {audited_example("planted_workbook/planted.xlsx").string(), "--format", "json"};
+    const std::vector<std::string> words = {audited_example("planted_workbook/planted.xlsx").string(), "--format",
+                                            "json"};
     EXPECT_EQ(audit(words).out, audit(words).out);
 }
 

@@ -9,7 +9,6 @@ namespace {
 
 using nlohmann::json;
 
-
 class CampaignRun : public ProgramTest {
 protected:
     /// Six reflectors at one height on a ring about the rotary axis, alternate ones raised; station P3 on the axis.

@@ -193,9 +193,10 @@ TEST_F(ComparisonProgram, RefusalsLeaveNothingBehind) {
     expect_refused(with_one_replaced(job, "\"u\": 0.10", "\"u\": 0.10, \"U\": 0.20, \"k\": 2"), "GC-INPUT-0503");
     expect_refused(with_one_replaced(job, "NMI2", "NMI1"), "GC-INPUT-0508");
     // r = 1 with two laboratories that are independent of each other is no covariance.
-    expect_refused(with_one_replaced(job, "\"unit\": \"mm\",",
-                            "\"unit\": \"mm\", \"correlations\": [[\"NMI1\",\"NMI2\",1],[\"NMI1\",\"NMI3\",1]],"),
-                   "GC-INPUT-0517");
+    expect_refused(
+        with_one_replaced(job, "\"unit\": \"mm\",",
+                          "\"unit\": \"mm\", \"correlations\": [[\"NMI1\",\"NMI2\",1],[\"NMI1\",\"NMI3\",1]],"),
+        "GC-INPUT-0517");
     expect_refused(R"({"schema": "gumcert/job/1", "kind": "comparison", "unit": "mm",
   "participants": [{"id": "A", "value": 1, "u": 0.001}, {"id": "B", "value": 2, "u": 0.001}],
   "assigned_value": "largest_consistent_subset"})",
@@ -298,14 +299,14 @@ TEST_F(ComparisonProgram, BudgetsThatNameOneStandard) {
     EXPECT_NEAR(point["u_D"].get<double>(), 0.3 * std::sqrt(2.0), 1e-12);
     EXPECT_EQ(record["comparison"]["shared_sources"][0]["source"], "gauge block 17");
     EXPECT_EQ(record["job"]["files"].size(), 3U) << "both budgets are files of the job";
-    const json independent = record_of(
-        with_one_replaced(job, "\"unit\": \"um\",", "\"unit\": \"um\", \"independent_sources\": [\"gauge block 17\"],"));
+    const json independent = record_of(with_one_replaced(
+        job, "\"unit\": \"um\",", "\"unit\": \"um\", \"independent_sources\": [\"gauge block 17\"],"));
     EXPECT_NEAR(independent["comparison"]["points"][1]["u_D"].get<double>(), 0.5 * std::sqrt(2.0), 1e-12);
 }
 
 TEST_F(ComparisonProgram, SameBytesForAnyNumberOfThreads) {
     const std::string job = with_one_replaced(k_key_comparison, "\"weighted_mean\"",
-                                     R"({"method": "median", "uncertainty": "trials", "trials": 20000})");
+                                              R"({"method": "median", "uncertainty": "trials", "trials": 20000})");
     ASSERT_EQ(compare(job, {"--threads", "1"}).code, 0);
     const std::string first = bytes_of(record_file());
     ASSERT_EQ(compare(job, {"--threads", "4"}).code, 0);

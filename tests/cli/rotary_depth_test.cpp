@@ -12,7 +12,6 @@ namespace {
 
 using nlohmann::json;
 
-
 fs::path simulated_campaign(const std::string& name) {
     return fs::path(GUMCERT_SOURCE_DIR) / "tests" / "reference" / "campaigns" / name;
 }

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <ctime>
-
 #include "archive/archive.h"
 #include "archive/evidence.h"
 #include "archive/store/sqlite_store.h"
@@ -125,9 +123,10 @@ TEST_F(CertificateWithAHead, IsRefusedWhereTheHeadIsAnotherOne) {
     EXPECT_EQ(code_of([&] { (void)archive_.draft(draft_with(mark_of(archive_.head())), by("A. Author")); }), "");
 }
 
-/// A document of 8 MB with 100 000 heads, each found once: to look among all that were found would be 5 000 000 000 looks.
+/// A document of 80 MB with 1 000 000 heads, each found once: to look among all that were found would be 500 000 000 000 looks,
+/// and would not end in the time that a test has.
 TEST(PrintedHead, IsFoundInALongDocumentWithoutLookingBack) {
-    constexpr std::int64_t k_many = 100'000;
+    constexpr std::int64_t k_many = 1'000'000;
     std::string document;
     Head head;
     head.root = std::string(32, '\x5d');
@@ -136,9 +135,7 @@ TEST(PrintedHead, IsFoundInALongDocumentWithoutLookingBack) {
         document += mark_of(head);
     }
     document += document.substr(0, document.size() / 2);
-    const std::clock_t begin = std::clock();
     const std::vector<PrintedHead> found = printed_heads_in(document);
-    EXPECT_LT(static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC, 3.0);
     ASSERT_EQ(found.size(), static_cast<std::size_t>(k_many));
     EXPECT_EQ(found.front().size, 1);
     EXPECT_EQ(found.back().size, k_many);

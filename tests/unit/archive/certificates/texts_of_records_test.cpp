@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <ctime>
 #include <random>
 
 namespace gumcert::archive {
@@ -60,19 +59,17 @@ TEST(TextsOfRecords, TellTextsThatDifferInSpellingOnly) {
 }
 
 /// Each of many certificates has a text of its own, and each is a name that others may rest on: a look at each text for each name
-/// would be 1 600 000 000 looks.
+/// would be 40 000 000 000 looks, and would not end in the time that a test has.
 TEST(TextsOfRecords, AreNotAllLookedAtForEachName) {
-    constexpr std::size_t k_many = 40'000;
+    constexpr std::size_t k_many = 200'000;
     TextsOfRecords texts;
     for (std::size_t i = 0; i < k_many; ++i) {
         texts.add(i, references_with({"protocol of EX-2026-" + std::to_string(i), "STD-017"}));
     }
-    const std::clock_t begin = std::clock();
     for (std::size_t i = 0; i < k_many; ++i) {
         const std::set<std::size_t> found = texts.that_name("EX-2026-" + std::to_string(i));
         ASSERT_TRUE(found.size() == 1 && *found.begin() == i) << i;
     }
-    EXPECT_LT(static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC, 8.0);
 }
 
 }  // namespace

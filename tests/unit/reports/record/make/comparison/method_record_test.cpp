@@ -342,8 +342,7 @@ TEST(MethodRecord, CoverageFactorsOfBothSidesAreBroughtToOne) {
         EXPECT_NEAR(*brought.points[i].En.number, *with_2.points[i].En.number, 1e-4);
         EXPECT_DOUBLE_EQ(*brought.points[i].U.number, 3.0 * *brought.points[i].u) << "as stated";
     }
-    EXPECT_THAT(joined_remarks(brought),
-                HasSubstr("At 6 of 6 points a coverage factor is not that of about 95 %"));
+    EXPECT_THAT(joined_remarks(brought), HasSubstr("At 6 of 6 points a coverage factor is not that of about 95 %"));
     EXPECT_THAT(joined_remarks(with_2), Not(HasSubstr("a coverage factor is not")));
 }
 
