@@ -663,8 +663,9 @@ TEST(PlantedBlunders, ScalesOfTwoStationsAreNamedWithTheirSizes) {
         synthetic::planting::scale_station(m, 1, first_size);
         synthetic::planting::scale_station(m, 4, second_size);
         SCOPED_TRACE(std::to_string(1e6 * first_size) + ", " + std::to_string(1e6 * second_size) + " ppm");
+        const RotaryTableSolution solution = evaluated(m);
         std::size_t named = 0;
-        for (const GroupTest& test : evaluated(m).groups->tests) {
+        for (const GroupTest& test : solution.groups->tests) {
             if (test.suspicious) {
                 ASSERT_EQ(test.kind, GroupKind::station_scale);
                 ASSERT_TRUE(test.station == 1 || test.station == 4);
