@@ -84,12 +84,12 @@ TEST(LogTexts, TellWhatBecameOfACertificate) {
     EXPECT_THAT(text, HasSubstr("withdrawn   R. Reviewer: a wrong"));
     EXPECT_EQ(text.find("\nserial number"), std::string::npos) << "no reason brings a line of its own";
 
-    const nlohmann::json json = history_json(archive, "N-1");
-    EXPECT_EQ(json["schema"], "gumcert/archive-certificate/1");
-    EXPECT_EQ(json["state"], "withdrawn");
-    ASSERT_EQ(json["entries"].size(), 2U);
-    EXPECT_EQ(json["entries"][1]["by"], "R. Reviewer");
-    EXPECT_EQ(json["entries"][1]["body"]["why"], "a wrong\nserial number");
+    const nlohmann::json history = history_json(archive, "N-1");
+    EXPECT_EQ(history["schema"], "gumcert/archive-certificate/1");
+    EXPECT_EQ(history["state"], "withdrawn");
+    ASSERT_EQ(history["entries"].size(), 2U);
+    EXPECT_EQ(history["entries"][1]["by"], "R. Reviewer");
+    EXPECT_EQ(history["entries"][1]["body"]["why"], "a wrong\nserial number");
     EXPECT_EQ(test::code_of([&] { (void)history_text(archive, "N-2"); }), "GC-ARCHIVE-0026");
 }
 
