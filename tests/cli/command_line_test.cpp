@@ -261,14 +261,14 @@ TEST_F(Messages, JsonAndTextSayTheSame) {
     replace_in(job_.parent_path() / "lengths.csv", ",R2,", ",R9,");
     change_json(job_, [](nlohmann::json& job) { job["axsis"] = "A"; });
     const Ended text = gumcert({"run", job_.string(), "-o", (folder() / "out").string()});
-    const Ended json = gumcert({"run", job_.string(), "-o", (folder() / "out").string(), "--json-messages"});
+    const Ended as_json = gumcert({"run", job_.string(), "-o", (folder() / "out").string(), "--json-messages"});
     EXPECT_EQ(text.code, 3);
-    EXPECT_EQ(json.code, 3);
+    EXPECT_EQ(as_json.code, 3);
     EXPECT_EQ(text.out, "");
-    EXPECT_EQ(json.out, "");
-    const std::vector<Message> messages = json_messages(json);
+    EXPECT_EQ(as_json.out, "");
+    const std::vector<Message> messages = json_messages(as_json);
     const std::vector<std::string> lines = lines_of(text.err);
-    ASSERT_EQ(messages.size(), 2U) << json.err;
+    ASSERT_EQ(messages.size(), 2U) << as_json.err;
     ASSERT_EQ(lines.size(), 2U) << text.err;
     for (std::size_t i = 0; i < lines.size(); ++i) {
         const Message& m = messages[i];
