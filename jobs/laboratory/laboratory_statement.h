@@ -130,8 +130,8 @@ void describe(Archive& a, laboratory::DriftModel& r) {
         "through the history; last_difference: no more than between the last two calibrations.");
     a("reason", r.reason, Line{4096}, "Why there is no drift, or where the limit is from.");
     a("limit", r.limit, In{above_zero("")},
-      "Of limit_per_year: largest change in a year, in unit; in percent or ppm it is a share of the "
-      "nominal value of each line.");
+      "Of limit_per_year: largest change in a year, in unit; in percent or ppm, of a value that is no ratio, a share "
+      "of the nominal value of each line.");
     a.by_hand("unit", k_unit_schema, "a unit", "Of limit.");
     a("weights", r.weighted, k_weights, "Of linear: equal, when left out, or by 1/u².");
     a.needs("limit", "unit");
