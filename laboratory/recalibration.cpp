@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "certificate/dates.h"
+#include "certificate/statement_of_uncertainty.h"
 #include "gum/quantity/decimal_rounding.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/unit.h"
@@ -15,6 +16,7 @@ namespace gumcert::laboratory {
 
 namespace {
 
+constexpr int k_most_digits = 15;
 constexpr double k_well_within = 0.8;  // of the largest permissible error (ILAC-G24:2022 / OIML D 10:2022, 6.2)
 
 double limit_in(const IntervalPlan& plan, const StandardRecord& record, const CalibrationResult& result) {
@@ -125,8 +127,16 @@ std::optional<Recalibration> next_calibration(const StandardRecord& record, cons
     const double found = series.back().value - before;
     // 10.005 - 10.0041 is 0.0009 to the digits of the values, and to no more.
     const double scale = std::max(std::abs(before), std::abs(series.back().value));
-    const std::string printed = gum::is_at_most(std::abs(found), 0.0, scale) ? "0" : gum::round_significant(found, 2);
-    return after(last, staircase_interval(in_unit, found, scale),
+    const long days = staircase_interval(in_unit, found, scale);
+    std::string printed = gum::is_at_most(std::abs(found), 0.0, scale) ? "0" : gum::round_significant(found, 2);
+    // 0.0104 V is not told as 0.010 V where the limit is 0.01 V: the printed number gives the same interval.
+    const auto gives_the_interval = [&] {
+        return staircase_interval(in_unit, certificate::number_of(printed).value_or(found), scale) == days;
+    };
+    for (int digits = 3; digits <= k_most_digits && !gives_the_interval(); ++digits) {
+        printed = gum::round_significant(found, digits);
+    }
+    return after(last, days,
                  "staircase: found " + printed + " " + gum::unit_for_people(result.unit) + " from its value");
 }
 

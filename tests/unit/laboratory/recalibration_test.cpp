@@ -102,6 +102,11 @@ TEST(RecalibrationTest, FindsWhatTheDigitsOfTheCertificatesSay) {
         EXPECT_EQ(next(start, start - 0.0011, 0.001).days, 255) << start;
     }
     EXPECT_EQ(next(10.0041, 10.005, 0.002).because, "staircase: found 0.00090 V from its value");
+    // The number that is told gives the interval that is told.
+    EXPECT_EQ(next(10.0, 10.01, 0.01).because, "staircase: found 0.010 V from its value");
+    EXPECT_EQ(next(10.0, 10.0104, 0.01).days, 255);
+    EXPECT_EQ(next(10.0, 10.0104, 0.01).because, "staircase: found 0.0104 V from its value");
+    EXPECT_EQ(next(10.0, 9.99196, 0.01).because, "staircase: found -0.00804 V from its value");
     EXPECT_EQ(next(10.005, 10.005, 0.002).because, "staircase: found 0 V from its value");
 }
 
