@@ -302,18 +302,21 @@ std::optional<std::vector<IdentifiedSentence>> ProgramSentences::identified(cons
 
 std::string ProgramSentences::worded_list(const std::string& english, const std::string& language,
                                           const std::string& sign) const {
+    // Between semicolons a comma is part of a name, such as that of the point "1 V, 50 Hz".
+    const bool between_semicolons = english.find("; ") != std::string::npos;
+    const std::string_view separator = between_semicolons ? "; " : ", ";
     std::string out;
     for (std::size_t at = 0; at <= english.size();) {
-        const std::size_t end = std::min(english.find(", ", at), english.size());
+        const std::size_t end = std::min(english.find(separator, at), english.size());
         const std::string item = english.substr(at, end - at);
         const bool known = find(item).has_value();
         out += (at == 0                 ? ""
-                : language == "zh-Hant" ? "、"
+                : language == "zh-Hant" ? (between_semicolons ? "；" : "、")
                                         : "; ") +
                (known                 ? worded(item, language, sign)
                 : may_be_number(item) ? with_decimal_sign(item, sign)
                                       : item);
-        at = end + 2;
+        at = end + separator.size();
     }
     return out;
 }

@@ -111,6 +111,17 @@ TEST(ProgramSentences, AreWorded) {
     EXPECT_EQ(all.worded("the value 1.5 of R is missing", "fr", ","), "the value 1.5 of R is missing");
 }
 
+/// Lists stand between semicolons where commas are decimal signs, and where names have commas.
+TEST(ProgramSentences, KeepNamesOfListsWhole) {
+    const ProgramSentences all(catalogue_file());
+    EXPECT_EQ(all.worded("E, points 1.5, 2", "de", ","), "E, Punkte 1,5; 2");
+    EXPECT_EQ(all.worded("E, points 1.5, 2", "zh-Hant", "."), "E，點 1.5、2");
+    EXPECT_EQ(all.worded("E, points 1 V, 50 Hz; 2 V, 100 Hz", "de", ","), "E, Punkte 1 V, 50 Hz; 2 V, 100 Hz");
+    EXPECT_EQ(all.worded("E, points 1 V, 50 Hz; 2 V, 100 Hz and 3 more", "es", ","),
+              "E, puntos 1 V, 50 Hz; 2 V, 100 Hz y 3 más");
+    EXPECT_EQ(all.worded("E, points 1 V, 50 Hz; 2 V, 100 Hz", "zh-Hant", "."), "E，點 1 V, 50 Hz；2 V, 100 Hz");
+}
+
 /// One pattern is several: with one and with more of a thing, in every language.
 TEST(ProgramSentences, HaveFormsOfNumber) {
     const ProgramSentences all(json::parse(R"({"a": {
