@@ -165,6 +165,7 @@ std::vector<certificate::Finding> findings_on_named_tables(const certificate::Ce
         return {};
     }
     const std::vector<std::size_t> there = tables_with_results(view);
+    std::vector<certificate::Finding> found;
     for (const std::string& language : languages) {
         for (const std::size_t number : own_tables_named(certificate.data.adjustment->as_found.in(language))) {
             if (there.empty() || std::find(there.begin(), there.end(), number) != there.end()) {
@@ -173,24 +174,25 @@ std::vector<certificate::Finding> findings_on_named_tables(const certificate::Ce
             const auto [first, last] = std::minmax_element(there.begin(), there.end());
             const std::string named =
                 "the results before the adjustment are said to stand in table " + std::to_string(number) + ", and ";
-            const bool is_told = std::ranges::any_of(certificate.findings, [&](const certificate::Finding& f) {
+            const auto is_this = [&](const certificate::Finding& f) {
                 return f.where == "/adjustment/as_found" && f.what.starts_with(named);
-            });
-            if (is_told) {
+            };
+            if (std::ranges::any_of(certificate.findings, is_this) || std::ranges::any_of(found, is_this)) {
                 continue;
             }
-            return {{.id = "R07-4d",
-                     .clause = "ISO/IEC 17025:2017, 7.8.4.1 d",
-                     .severity = certificate::FindingSeverity::critical,
-                     .where = "/adjustment/as_found",
-                     .what = *first == *last
-                                 ? named + "table " + std::to_string(*first) + " has the results of this certificate"
-                                 : named + "tables " + std::to_string(*first) + " to " + std::to_string(*last) +
-                                       " have the results of this certificate",
-                     .action = "Name the table that has them, or the certificate with its number."}};
+            found.push_back(
+                {.id = "R07-4d",
+                 .clause = "ISO/IEC 17025:2017, 7.8.4.1 d",
+                 .severity = certificate::FindingSeverity::critical,
+                 .where = "/adjustment/as_found",
+                 .what = *first == *last
+                             ? named + "table " + std::to_string(*first) + " has the results of this certificate"
+                             : named + "tables " + std::to_string(*first) + " to " + std::to_string(*last) +
+                                   " have the results of this certificate",
+                 .action = "Name the table that has them, or the certificate with its number."});
         }
     }
-    return {};
+    return found;
 }
 
 }  // namespace gumcert::reports

@@ -91,6 +91,13 @@ TEST(NamedTables, HaveResults) {
     in_two.by_language = {{"en", "Table 3"}, {"de", "Tabelle 9"}};
     EXPECT_THAT(findings_on_named_tables(adjusted(in_two), view, {"en"}), IsEmpty());
     EXPECT_THAT(findings_on_named_tables(adjusted(in_two), view, {"en", "de"}), testing::SizeIs(1));
+    // Each number at once and only once: what is found later would be in documents, and not in the record.
+    certificate::LocalisedText twice;
+    twice.by_language = {{"en", "Tables 8 and 9"}, {"de", "Tabellen 8 und 9"}};
+    certificate::Certificate of_two = adjusted(twice);
+    of_two.findings = findings_on_named_tables(of_two, view, {"en", "de"});
+    EXPECT_THAT(of_two.findings, testing::SizeIs(2));
+    EXPECT_THAT(findings_on_named_tables(of_two, view, {"en", "de"}), IsEmpty());
 }
 
 TEST(NamedTables, AreAskedForOnlyAfterAnAdjustment) {
