@@ -39,7 +39,8 @@ json line(const Text& text, const Wording& words) {
 constexpr const char* k_mark = " †";  // of what the customer stated
 
 bool is_marked(const Text& text) {
-    return text.first().find(k_mark) != std::string::npos;
+    // At the end of a fact, in a line of several before a comma; else it is a dagger in a text of the laboratory.
+    return text.first().ends_with(k_mark) || text.first().find(std::string(k_mark) + ",") != std::string::npos;
 }
 
 bool is_draft(const EvaluationRecord& record) {

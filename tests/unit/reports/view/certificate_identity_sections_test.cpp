@@ -197,6 +197,10 @@ TEST(CertificateIdentity, ShowsWhatIsMissingAsADash) {
                 ElementsAre("Object=–", "Manufacturer=–", "Type=–", "Serial number=–", "Condition on receipt=–"));
     EXPECT_EQ(lines_of_section(page, "authorisation").front(), "Authorised by=–");
     EXPECT_THAT(page.dump(), Not(HasSubstr("†"))) << "the legend of a mark that does not occur";
+    // A dagger in a text of the laboratory is no mark of the customer's.
+    record.certificate->data.item.description = "Meter with a † on its case";
+    record.certificate->data.item.stated_by_customer.clear();
+    EXPECT_THAT(page_of(record).dump(), Not(HasSubstr("† Stated by the customer")));
 }
 
 TEST(CertificateIdentity, MarksDraftsAndSpecimens) {
