@@ -55,11 +55,11 @@ TEST(EvidenceSections, BeginWithWhatTheTableDoes) {
     EXPECT_EQ(rows[8][0], "E");
     EXPECT_EQ(rows[9][0], "axis_y");
     const std::string text = text_of_evidence(record);
-    EXPECT_THAT(text, HasSubstr("Groups of distances 1 kinds were tested; none is suspicious."));
+    EXPECT_THAT(text, HasSubstr("Groups of distances 1 kind was tested; none is suspicious."));
     EvaluationRecord suspicious = record;
     suspicious.rotary->group_tests->kinds.front().suspicious = true;
     suspicious.rotary->adjustment.global_test.accepted = false;
-    EXPECT_THAT(text_of_evidence(suspicious), HasSubstr("1 are suspicious: see their table"));
+    EXPECT_THAT(text_of_evidence(suspicious), HasSubstr("1 is suspicious: see its table"));
     AdjustmentSummary& adjustment = suspicious.rotary->adjustment;
     adjustment.p_value.number = 0.004;
     EXPECT_THAT(text_of_evidence(suspicious), HasSubstr("The residuals are larger than those of 39 in 40 adjustments"));
