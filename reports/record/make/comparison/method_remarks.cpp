@@ -143,6 +143,17 @@ private:
         }
     }
 
+    /// That differences are too small for their uncertainties is found for methods that share nothing: with what they may
+    /// share U(D) is smaller. A finding that is corrected may leave a verdict for which the correlation has to be known.
+    [[nodiscard]] bool holds_for_any_correlation() const {
+        const gum::AgreementVerdict audited = whole().verdict_audited.value_or(whole().verdict);
+        const auto holds = [](gum::AgreementVerdict verdict) {
+            return verdict > gum::AgreementVerdict::correlation_unknown &&
+                   verdict != gum::AgreementVerdict::uncertainty_too_large;
+        };
+        return whole().for_any_correlation && holds(whole().verdict) && holds(audited);
+    }
+
     void unknown_correlation() {
         if (!comparison_.correlation_unknown) {
             return;
@@ -157,7 +168,7 @@ private:
             say("Where both methods have the same expanded uncertainty, all of it could be common to both, and no "
                 "finite En bounds what that would do.");
         }
-        if (whole().for_any_correlation && whole().verdict > gum::AgreementVerdict::correlation_unknown) {
+        if (holds_for_any_correlation()) {
             say("The verdict holds whatever share of the smaller uncertainty is common to both methods: none, half and "
                 "the whole of it were judged, each with what chance makes.");
         }

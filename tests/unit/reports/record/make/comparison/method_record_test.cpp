@@ -285,6 +285,30 @@ TEST(MethodRecord, SinglePointsAbove1AreHeldAgainstChance) {
     EXPECT_THAT(joined_remarks(compared(comparison_of(sound()))), Not(HasSubstr("limit")));
 }
 
+/// "Whatever share" is said of a verdict only where no share gives another one: differences that are too small for methods that
+/// share nothing need not be so for others, and a finding may leave a verdict for which the correlation has to be known.
+TEST(MethodRecord, AVerdictHoldsForAnyCorrelationOrIsNotSaidTo) {
+    const auto says_so = [](MethodComparison comparison) {
+        comparison.correlation_unknown = true;
+        return testing::Value(joined_remarks(compared(comparison)), HasSubstr("whatever share"));
+    };
+    EXPECT_TRUE(says_so(comparison_of(many(3))));
+    std::vector<Stated> small = many(3);
+    for (Stated& point : small) {
+        point.D *= 0.8;
+        point.U_reference = 1.2;
+    }
+    MethodComparison too_small = comparison_of(small);
+    EXPECT_FALSE(says_so(too_small));
+    too_small.correlation_unknown = true;
+    EXPECT_EQ(compared(too_small).summary.front().verdict, "uncertainty_too_large");
+    MethodComparison with_finding = comparison_of(many(3));
+    with_finding.audited_factor = 0.2;
+    with_finding.correlation_unknown = true;
+    EXPECT_EQ(compared(with_finding).summary.front().verdict, "falls_with_finding");
+    EXPECT_FALSE(says_so(with_finding));
+}
+
 TEST(MethodRecord, AgreementThatFallsWithAFinding) {
     MethodComparison comparison = comparison_of(many(3));
     EXPECT_EQ(compared(comparison).summary.front().verdict_audited, "");
