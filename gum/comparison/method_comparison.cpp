@@ -404,8 +404,9 @@ AgreementVerdict verdict_for_any_correlation(const MethodComparison& comparison,
     for (const double share : {0.5, 1.0}) {
         MethodComparison shared = comparison;
         shared.correlation_unknown = false;
-        Eigen::VectorXd common(static_cast<Index>(comparison.points.size()));
-        for (Index i = 0; i < common.size(); ++i) {
+        // Of other directions nothing is asked here: where both uncertainties are equal, the whole of it would leave none.
+        Eigen::VectorXd common = Eigen::VectorXd::Zero(static_cast<Index>(comparison.points.size()));
+        for (const Index i : row.points) {
             const ComparedPoint& point = comparison.points[static_cast<std::size_t>(i)];
             const double smaller = std::min(point.u, point.reference_u);
             common(i) = share * smaller * smaller;

@@ -160,6 +160,28 @@ TEST(MethodVerdicts, ForAnyCorrelationAreThoseOfEachCorrelation) {
     EXPECT_GT(given, 30);
 }
 
+/// A direction is judged for itself: that nothing would be left of the uncertainty in another one neither refuses the
+/// comparison nor changes its verdict.
+TEST(MethodVerdicts, ForAnyCorrelationLookAtNoOtherDirection) {
+    std::mt19937 random(5);
+    MethodComparison comparison = methods_that_share(random, 0.0, 1.0);
+    for (std::size_t i = 0; i < 20; ++i) {
+        comparison.points[i].direction = i < 10 ? "x" : "y";
+    }
+    const MethodResult before = compare_methods(comparison);
+    for (Eigen::Index i = 10; i < 20; ++i) {
+        comparison.points[static_cast<std::size_t>(i)].reference_u = 1.0;
+        comparison.points[static_cast<std::size_t>(i)].reference_U = 2.0;
+        comparison.reference_covariance(i, i) = 1.0;
+    }
+    const MethodResult result = compare_methods(comparison);
+    ASSERT_EQ(result.summaries.size(), 3U);
+    EXPECT_TRUE(result.summaries[0].for_any_correlation);
+    EXPECT_FALSE(result.summaries[1].for_any_correlation);
+    EXPECT_FALSE(result.summaries[2].for_any_correlation);
+    EXPECT_EQ(result.summaries[0].verdict, before.summaries[0].verdict);
+}
+
 /// What points share with each other may be common to both sides in any way: then each |E_n| counts by itself, as where ν
 /// is finite or nothing is left of the uncertainty.
 TEST(MethodVerdicts, ForAnyCorrelationNeedPointsOfTheirOwn) {
