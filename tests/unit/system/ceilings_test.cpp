@@ -50,9 +50,9 @@ TEST(Ceilings, MemoryCountsWhenItIsUsed) {
 TEST(CeilingsOfWork, EndWithTheWork) {
     const auto tell = [](Ceiling which) { ADD_FAILURE() << (which == Ceiling::time ? "time" : "memory"); };
     for (int i = 0; i < 20; ++i) {
-        const CeilingsOfWork work({.memory = std::uint64_t{1} << 40U, .time = milliseconds(200)}, tell);
+        const CeilingsOfWork work({.memory = std::uint64_t{1} << 40U, .time = milliseconds(2000)}, tell);
     }
-    std::this_thread::sleep_for(milliseconds(300));
+    std::this_thread::sleep_for(milliseconds(2200));  // the last one would tell by now
     const CeilingsOfWork none({}, tell);
 }
 
