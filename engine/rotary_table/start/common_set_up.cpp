@@ -7,6 +7,8 @@
 #include "engine/rotary_table/start/candidate_places.h"
 #include "engine/rotary_table/start/closed_solution.h"
 #include "engine/rotary_table/start/fit_limits.h"
+#include "gum/quantity/dense_factors.h"
+#include "gum/quantity/units.h"
 
 namespace gumcert::engine {
 
@@ -104,8 +106,28 @@ CommonFit fit_within_reach(const ObservedStations& observed) {
     return found;
 }
 
+bool has_mirrored_table(const ObservedStations& observed, const Eigen::Vector4d& set_up) {
+    constexpr double k_flat = 10.0 * gum::k_micrometre;  // root mean square of what stands out of the plane
+    constexpr double k_upright = 10.0 * gum::k_degree;   // beyond it GC-GEOMETRY-0006 is told
+    const RotaryTableMeasurement& measurement = observed.measurement();
+    const Eigen::MatrixX3d centred = measurement.fixture.rowwise() - measurement.fixture.colwise().mean();
+    const Eigen::Matrix3d scatter = centred.transpose() * centred / static_cast<double>(centred.rows());
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(scatter);
+    if (eigen.eigenvalues()[0] > k_flat * k_flat) {
+        return false;
+    }
+    const int axial = axial_coordinate(measurement.axis);
+    const Eigen::Vector3d normal = eigen.eigenvectors().col(0);
+    const Eigen::Vector3d axis = observed.set_up_motion(set_up).rotation.row(axial).transpose();
+    const Eigen::Vector3d mirrored = 2.0 * normal.dot(axis) * normal - axis;  // in the fixture, as the axis
+    return mirrored[axial] > std::cos(k_upright);
+}
+
 bool has_other_side(const ObservedStations& observed, const CommonFit& within) {
     constexpr double k_same_place = 0.01;  // [m]
+    if (has_mirrored_table(observed, within.set_up)) {
+        return true;
+    }
     std::vector<std::size_t> all(within.stations.size());
     std::iota(all.begin(), all.end(), std::size_t{0});
     // From the same set-up and from the one of which nothing is known: each may lead back.

@@ -23,6 +23,12 @@ struct CommonFit {
 /// path of each, lead one that is found on its own kilometres away, or to a false place of which there seem to be two.
 [[nodiscard]] CommonFit fit_within_reach(const ObservedStations& observed);
 
+/// Whether another set-up has the same distances, because all reflectors lie in one plane, as three always do: the mirror image of
+/// the table at a plane across its axis has them, with stations on the other side, and what lies in a plane comes to its mirror
+/// image by a turn. The axis is there, in the fixture, the present one turned about the normal of the plane by 180°; where it is
+/// more than 10° beside its coordinate, that is no set-up that anybody has. Exact, and not looked for: no descent can miss it.
+[[nodiscard]] bool has_mirrored_table(const ObservedStations& observed, const Eigen::Vector4d& set_up);
+
 /// Whether all stations fit on the other sides of the planes of their points as well, with another set-up: then distances do
 /// not tell which of both is the table.
 /// \param within  of `fit_within_reach`

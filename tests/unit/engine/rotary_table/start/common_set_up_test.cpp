@@ -37,5 +37,27 @@ TEST(CommonSetUp, AStationOnTheWrongSideStandsOutAndIsLookedForAgain) {
         << found.stations[3].position.transpose();
 }
 
+/// \param raised  one of three reflectors, along the axis, [m]
+synthetic::Campaign three_reflectors(double raised) {
+    synthetic::CampaignPlan plan = synthetic::small_plan();
+    plan.reflectors = {{0.05, 0.1, 0.0}, {0.05, -0.05, 0.087}, {0.05 + raised, -0.05, -0.087}};
+    return simulate(plan);
+}
+
+// Their plane stands 3° off the one across the axis: a fixture that is inclined by 6° to the other side has the same distances.
+TEST(CommonSetUp, ThreeReflectorsNearlyAcrossTheAxisHaveAnotherSide) {
+    const synthetic::Campaign campaign = three_reflectors(0.008);
+    const PlaceSearch search(campaign.measurement);
+    EXPECT_TRUE(has_mirrored_table(search.observed(), Eigen::Vector4d::Zero()));
+    EXPECT_TRUE(has_other_side(search.observed(), fit_within_reach(search.observed())));
+}
+
+TEST(CommonSetUp, NobodyHasTheOtherSideOfAnInclinedPlaneAndAFixtureInSpaceHasNone) {
+    const synthetic::Campaign inclined = three_reflectors(0.05);
+    EXPECT_FALSE(has_mirrored_table(PlaceSearch(inclined.measurement).observed(), Eigen::Vector4d::Zero()));
+    const synthetic::Campaign in_space = simulate(synthetic::small_plan());
+    EXPECT_FALSE(has_mirrored_table(PlaceSearch(in_space.measurement).observed(), Eigen::Vector4d::Zero()));
+}
+
 }  // namespace
 }  // namespace gumcert::engine
