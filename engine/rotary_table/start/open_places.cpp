@@ -86,8 +86,13 @@ std::string in_millimetres(const Eigen::Vector3d& position) {
            ") mm";
 }
 
+constexpr const char* k_plane_across =
+    "reflectors in one plane across the axis stay in it as the table turns: the mirror image of a station sees "
+    "the same distances";
+
 [[noreturn]] void refuse_sides(const RotaryTableMeasurement& measurement, const std::vector<StationFit>& fits,
-                               const std::vector<std::size_t>& open, const std::vector<Eigen::Vector3d>& image) {
+                               const std::vector<std::size_t>& open, const std::vector<Eigen::Vector3d>& image,
+                               const std::string& rule) {
     std::string others;
     for (std::size_t k = 1; k < open.size(); ++k) {
         others += (k == 1 ? "; the same holds for " : ", ") + measurement.stations[open[k]];
@@ -98,8 +103,7 @@ std::string in_millimetres(const Eigen::Vector3d& position) {
         "GC-RANK-0001", "station " + measurement.stations[j],
         "its distances fit a position near " + in_millimetres(fits[j].position) + " and one near " +
             in_millimetres(image[j]) + " alike" + others,
-        "reflectors in one plane across the axis stay in it as the table turns: the mirror image of a station sees "
-        "the same distances",
+        rule,
         "state on which side the station stands, with its position to some centimetres in the stations file, or "
         "raise alternate holders by 50 mm along " +
             axis,
@@ -132,7 +136,7 @@ void settle_mirror_images(const ObservedStations& observed, CommonFit& found) {
         }
     }
     if (!open.empty()) {
-        refuse_sides(measurement, fits, open, image);
+        refuse_sides(measurement, fits, open, image, k_plane_across);
     }
     // All at once: a tilt of the fixture against the axis holds the stations together on one side.
     const int axial = axial_coordinate(measurement.axis);
@@ -169,12 +173,35 @@ void settle_mirror_images(const ObservedStations& observed, CommonFit& found) {
         }
     }
     if (!stated) {
-        refuse_sides(measurement, fits, open, image);
+        refuse_sides(measurement, fits, open, image, k_plane_across);
     }
     if (nearer > 0.0) {
         fits = rivals;
         found.set_up = set_up;
     }
+}
+
+/// Two set-ups that have the same distances, of which settle_mirror_images() sees none: its descent begins with the tilt of the
+/// fixture to the other side, and not with that of the plane of the reflectors. Stated positions have led to one of them.
+void refuse_mirrored_table(const ObservedStations& observed, const CommonFit& found) {
+    const RotaryTableMeasurement& measurement = observed.measurement();
+    const auto is_stated = [](const std::optional<Eigen::Vector3d>& start) { return start.has_value(); };
+    if (std::ranges::any_of(measurement.station_start, is_stated) || !has_mirrored_table(observed, found.set_up)) {
+        return;
+    }
+    const int axial = axial_coordinate(measurement.axis);
+    const double height =
+        (observed.set_up_motion(found.set_up) * measurement.fixture.colwise().mean().transpose())[axial];
+    std::vector<std::size_t> all;
+    std::vector<Eigen::Vector3d> image;
+    for (const StationFit& fit : found.stations) {
+        all.push_back(image.size());
+        image.push_back(fit.position);
+        image.back()[axial] = 2.0 * height - fit.position[axial];
+    }
+    refuse_sides(measurement, found.stations, all, image,
+                 "reflectors in one plane near the one across the axis: with the fixture inclined to the other side "
+                 "their mirror image has the same distances");
 }
 
 }  // namespace
@@ -184,6 +211,7 @@ void settle_open_places(const ObservedStations& observed, CommonFit& found) {
         refuse_open_direction(observed, found, j);
     }
     settle_mirror_images(observed, found);
+    refuse_mirrored_table(observed, found);
 }
 
 CommonFit settled_places(const ObservedStations& observed, const std::vector<StationFit>& alone) {

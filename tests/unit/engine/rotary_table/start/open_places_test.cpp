@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "engine/rotary_table/start/place_search.h"
 #include "engine/rotary_table/start/start_values.h"
@@ -44,6 +45,25 @@ TEST(OpenPlaces, MirrorImageInAPlaneAcrossTheAxisIsRefusedWithBothPositions) {
             EXPECT_NE(diagnostic.action.find("stations file"), std::string::npos) << diagnostic.action;
             EXPECT_NE(diagnostic.action.find("raise alternate holders by 50 mm along x"), std::string::npos);
         }
+    }
+}
+
+// Three reflectors lie in a plane, here 3° off the one across the axis. A fixture that stands upright and one that is inclined by
+// 6° have the same distances: which of both was taken was chance.
+TEST(OpenPlaces, ThreeReflectorsNearlyAcrossTheAxisAreRefusedUnlessPositionsAreStated) {
+    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+        CampaignPlan plan = synthetic::small_plan(seed);
+        plan.reflectors = {{0.05, 0.1, 0.0}, {0.05, -0.05, 0.087}, {0.058, -0.05, -0.087}};
+        Campaign campaign = simulate(plan);
+        const std::vector<gum::Diagnostic> problems =
+            synthetic::problems_of([&] { (void)find_start_values(campaign.measurement); });
+        ASSERT_EQ(problems.size(), 1U) << seed;
+        EXPECT_EQ(problems.front().code, "GC-RANK-0001");
+        EXPECT_NE(problems.front().rule.find("mirror image"), std::string::npos) << problems.front().rule;
+        for (std::size_t j = 0; j < 6; ++j) {
+            campaign.measurement.station_start[j] = campaign.truth.stations[j] + Eigen::Vector3d(0.08, -0.05, 0.05);
+        }
+        EXPECT_TRUE(synthetic::problems_of([&] { (void)find_start_values(campaign.measurement); }).empty()) << seed;
     }
 }
 
