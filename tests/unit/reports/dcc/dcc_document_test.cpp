@@ -537,7 +537,7 @@ TEST(DccDocument, HasTheTitleInTheLanguagesOfTheCertificate) {
     record.title = "Length gauge";
     record.title_by_language.by_language = {{"en", "Length gauge"}, {"de", "Längenmaß"}};
     record.certificate->data.languages = {"de", "en"};
-    const std::string text = checked(record);
+    const std::string text = checked(record, {});
     EXPECT_THAT(text, HasSubstr("<dcc:content lang=\"de\">Längenmaß</dcc:content>"));
     EXPECT_THAT(text, HasSubstr("<dcc:content lang=\"en\">Length gauge</dcc:content>"));
 }
