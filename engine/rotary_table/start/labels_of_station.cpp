@@ -75,6 +75,8 @@ std::optional<LabelHypothesis> labels_of_station(const RotaryTableMeasurement& m
 std::optional<LabelHypothesis> scale_of_station(const RotaryTableMeasurement& measurement, std::size_t station,
                                                 const StationFit& fit) {
     constexpr double k_most = 1.25;
+    constexpr double k_inside =
+        0.99;  // of the range: at its end what is left still falls, and the right factor is none of it
     constexpr double k_least = 5e-4;  // below it the tests of groups tell it, and what it is beside its u
     constexpr int k_steps = 40;       // of a golden section: to 2e-9 of the factor
     const std::vector<bool> active = lengths_of_station(measurement, station);
@@ -96,7 +98,7 @@ std::optional<LabelHypothesis> scale_of_station(const RotaryTableMeasurement& me
     // What is left grows with the distance of the factor from the right one, on both sides.
     const double logarithm = gum::least_by_golden_section(misfit_at, -std::log(k_most), std::log(k_most), k_steps);
     const LabelHypothesis found{.lengths = std::exp(logarithm), .scale = true};
-    if (std::abs(found.lengths - 1.0) > k_least &&
+    if (std::abs(found.lengths - 1.0) > k_least && std::abs(logarithm) < k_inside * std::log(k_most) &&
         misfit_with(measurement, found, station, active, true) < most_with_right_labels(misfit)) {
         return found;
     }

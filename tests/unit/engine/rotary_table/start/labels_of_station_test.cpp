@@ -57,5 +57,16 @@ TEST(LabelsOfStation, AFactorIsFoundToWhatTheDistancesTell) {
     }
 }
 
+// What is left falls up to the end of the range that is looked at: 0.8, which is no factor of anything, was told as one.
+TEST(LabelsOfStation, NoFactorIsToldThatIsTheEndOfWhatIsLookedAt) {
+    for (const double factor : {1.2505, 0.7998}) {
+        RotaryTableMeasurement stated = simulate(synthetic::small_plan()).measurement;
+        for (LengthObservation& length : stated.lengths) {
+            length.length *= length.station == 2 ? factor : 1.0;
+        }
+        EXPECT_FALSE(scale_of_station(stated, 2, fit_alone(stated, 2))) << factor;
+    }
+}
+
 }  // namespace
 }  // namespace gumcert::engine
