@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "certificate/statement_of_uncertainty.h"
 #include "tests/unit/certificate/passed_certificate.h"
 
 namespace gumcert::certificate {
@@ -92,8 +93,16 @@ TEST(UncertaintyGate, TellsOfAPassThatIsMoreProbablyNone) {
     const Finding found = only(uncertainty_findings(c));
     expect_finding(found, "D08", "ISO/IEC 17025:2017, 7.8.6.1", FindingSeverity::major, "l");
     EXPECT_THAT(found.what, testing::HasSubstr("15.8 %"));
-    length(c).verdict->conformance_probability = 0.5;  // on the limit itself
-    EXPECT_THAT(ids(uncertainty_findings(c)), testing::IsEmpty());
+    // On the limit itself, and where the other limit takes a little of it: both are printed as 50 %.
+    for (const double even : {0.5, 0.4999, 0.4951}) {
+        ASSERT_EQ(printed_probability(even), "50");
+        length(c).verdict->conformance_probability = even;
+        EXPECT_THAT(ids(uncertainty_findings(c)), testing::IsEmpty()) << even;
+    }
+    length(c).verdict->conformance_probability = 0.4949;
+    ASSERT_EQ(printed_probability(0.4949), "49");
+    EXPECT_THAT(ids(uncertainty_findings(c)), testing::ElementsAre("D08"));
+    length(c).verdict->conformance_probability = 0.5;
     length(c).verdict->test_uncertainty_ratio = 0.9;
     expect_finding(only(uncertainty_findings(c)), "D08", "ISO/IEC 17025:2017, 7.8.6.1", FindingSeverity::major, "l");
     length(c).verdict->rule = "DR-03";
