@@ -24,10 +24,11 @@ std::vector<fs::path> document_places(const evaluation::Kind& kind, const fs::pa
     return places;
 }
 
-std::vector<outputs::OutputFile> evaluated_files(const evaluation::Evaluation& evaluation, const fs::path& folder) {
-    std::vector<outputs::OutputFile> files{{folder / k_record_file, reports::to_canonical_json(evaluation.record)}};
+std::vector<outputs::OutputFile> evaluated_files(const evaluation::Evaluation& evaluation,
+                                                 const fs::path& record_file) {
+    std::vector<outputs::OutputFile> files{{record_file, reports::to_canonical_json(evaluation.record)}};
     if (!evaluation.covariance.empty()) {
-        files.push_back({folder / evaluation.covariance_file, evaluation.covariance});
+        files.push_back({record_file.parent_path() / evaluation.covariance_file, evaluation.covariance});
     }
     return files;
 }

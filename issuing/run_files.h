@@ -19,8 +19,9 @@ inline constexpr const char* k_audit_file = "audit.html";
                                                                  const std::filesystem::path& folder);
 
 /// Record and covariance as they are on every day: to be asked for before judge_issue().
+/// \param record_file  where the record is written; the covariance stands beside it
 [[nodiscard]] std::vector<outputs::OutputFile> evaluated_files(const evaluation::Evaluation& evaluation,
-                                                               const std::filesystem::path& folder);
+                                                               const std::filesystem::path& record_file);
 /// The audit of the evaluation as HTML, for the laboratory.
 [[nodiscard]] outputs::OutputFile audit_file(const evaluation::Evaluation& evaluation,
                                              const std::filesystem::path& folder, const reports::RenderAssets& assets);

@@ -184,7 +184,7 @@ bool run_job(const fs::path& job, const fs::path& folder, std::vector<fs::path> 
             print_messages(several ? evaluation::of_job(warnings, job) : warnings, common);
         });
     const reports::EvaluationRecord& record = evaluation.record;
-    std::vector<outputs::OutputFile> files = issuing::evaluated_files(evaluation, folder);
+    std::vector<outputs::OutputFile> files = issuing::evaluated_files(evaluation, folder / issuing::k_record_file);
     judge_issue(evaluation.record, options.languages, options.share);  // the record is written as it is on every day
     for (const fs::path& file : evaluation::input_files(job, record, options.laboratory)) {
         inputs.push_back(file);
@@ -395,7 +395,7 @@ ExitCode evaluate_to_record(const fs::path& job, const DocumentOptions& options,
         static_cast<unsigned>(common.threads), templates_folder(share),
         [&](const std::string& text) { progress(text); }, evaluation::program_kinds(), options.laboratory,
         [&](const evaluation::ReadJob& read) { tell_memory(read, common); });
-    const std::string text = reports::to_canonical_json(evaluation.record);
+    const std::vector<outputs::OutputFile> files = issuing::evaluated_files(evaluation, record_file);
     judge_issue(evaluation.record, {}, share);
     progress.clear();
     const bool blocked =
@@ -405,12 +405,8 @@ ExitCode evaluate_to_record(const fs::path& job, const DocumentOptions& options,
         report_diagnostics(evaluation.record, common);
         report_findings(evaluation.record, common);
         print_messages(evaluation::critical_messages(evaluation), common);
-        write_to_stdout(text);
+        write_to_stdout(files.front().bytes);
         return code;
-    }
-    std::vector<outputs::OutputFile> files{{record_file, text}};
-    if (!evaluation.covariance.empty()) {
-        files.push_back({record_file.parent_path() / evaluation.covariance_file, evaluation.covariance});
     }
     for (const fs::path& file : evaluation::input_files(job, evaluation.record, options.laboratory)) {
         inputs.push_back(file);

@@ -42,12 +42,12 @@ TEST(RunFiles, HaveTheirPlacesInOneFolder) {
 TEST(RunFiles, HoldRecordAndCovarianceAsTheyWereEvaluated) {
     evaluation::Evaluation evaluation;
     evaluation.record.kind = "budget";
-    const std::vector<outputs::OutputFile> record_alone = evaluated_files(evaluation, "out");
+    const std::vector<outputs::OutputFile> record_alone = evaluated_files(evaluation, "out/record.json");
     EXPECT_THAT(names_of(record_alone), testing::ElementsAre("out/record.json"));
     EXPECT_EQ(record_alone.front().bytes, reports::to_canonical_json(evaluation.record));
     evaluation.covariance = "1,2\n";
     evaluation.covariance_file = "covariance.npy";
-    const std::vector<outputs::OutputFile> files = evaluated_files(evaluation, "out");
+    const std::vector<outputs::OutputFile> files = evaluated_files(evaluation, "out/record.json");
     EXPECT_THAT(names_of(files), testing::ElementsAre("out/record.json", "out/covariance.npy"));
     EXPECT_EQ(files.back().bytes, "1,2\n");
 }
