@@ -156,10 +156,6 @@ Series describe(std::span<double> values, const CoverageRanks& ranks) {
     return {.mean = moments.mean, .u = moments.standard_deviation(), .low = range.low.value, .high = range.high.value};
 }
 
-}  // namespace
-
-namespace {
-
 /// Median and differences of all trials. Values are relative to that of the most precise result, as the draws are.
 MedianTrials trials_of(const Blocks& blocks, Index n, std::size_t trials, const CoverageRanks& ranks,
                        WorkerThreads& workers, std::vector<double>& medians) {

@@ -204,6 +204,28 @@ void refuse_mirrored_table(const ObservedStations& observed, const CommonFit& fo
                  "their mirror image has the same distances");
 }
 
+/// \param open  places of which some seem to be open
+/// \return nothing where there is no one set of places within reach that fits as well
+std::optional<CommonFit> settled_within_reach(const ObservedStations& observed, const CommonFit& open) {
+    CommonFit within = fit_within_reach(observed);
+    for (std::size_t j = 0; j < open.stations.size(); ++j) {
+        // A place that fits as error motions let it fit, or as well as the one that is open. What fits no place is no table.
+        const double most = std::max(k_good_misfit, k_rival_factor * open.stations[j].misfit);
+        if (within.stations[j].misfit > std::min(k_wrong_labels, most)) {
+            return std::nullopt;
+        }
+    }
+    if (has_other_side(observed, within)) {
+        return std::nullopt;
+    }
+    try {
+        settle_open_places(observed, within);
+    } catch (const gum::NoResultError&) {
+        return std::nullopt;
+    }
+    return within;
+}
+
 }  // namespace
 
 void settle_open_places(const ObservedStations& observed, CommonFit& found) {
@@ -216,30 +238,15 @@ void settle_open_places(const ObservedStations& observed, CommonFit& found) {
 
 CommonFit settled_places(const ObservedStations& observed, const std::vector<StationFit>& alone) {
     CommonFit found = fit_together(observed, alone);
-    std::optional<gum::NoResultError> open;
     try {
         settle_open_places(observed, found);
         return found;
-    } catch (const gum::NoResultError& error) {
-        open = error;
-    }
-    CommonFit within = fit_within_reach(observed);
-    for (std::size_t j = 0; j < alone.size(); ++j) {
-        // A place that fits as error motions let it fit, or as well as the one that is open. What fits no place is no table.
-        const double most = std::max(k_good_misfit, k_rival_factor * found.stations[j].misfit);
-        if (within.stations[j].misfit > std::min(k_wrong_labels, most)) {
-            throw gum::NoResultError(*open);
-        }
-    }
-    if (has_other_side(observed, within)) {
-        throw gum::NoResultError(*open);
-    }
-    try {
-        settle_open_places(observed, within);
     } catch (const gum::NoResultError&) {
-        throw gum::NoResultError(*open);
+        if (std::optional<CommonFit> within = settled_within_reach(observed, found)) {
+            return *std::move(within);
+        }
+        throw;
     }
-    return within;
 }
 
 }  // namespace gumcert::engine
