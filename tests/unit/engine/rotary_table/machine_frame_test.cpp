@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
-
 #include <array>
 #include <cmath>
 #include <random>

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "engine/rotary_table/evaluation/rotary_table_evaluation.h"
+#include "gum/quantity/dense_factors.h"
 #include "gum/quantity/diagnostic.h"
 #include "tests/support/synthetic_campaign.h"
 
@@ -394,8 +395,9 @@ TEST(RotaryTableModel, SmallMonteCarloReproducesTheStandardUncertainties) {
     const Eigen::VectorXd x = gum::input_estimates(model);
     std::vector<Eigen::MatrixXd> factors;
     for (const gum::InputGroup& group : model.inputs()) {
-        factors.emplace_back(group.is_diagonal() ? Eigen::MatrixXd(group.covariance.cwiseSqrt())
-                                                 : Eigen::MatrixXd(group.covariance.llt().matrixL()));
+        factors.emplace_back(group.is_diagonal()
+                                 ? Eigen::MatrixXd(group.covariance.cwiseSqrt())
+                                 : Eigen::MatrixXd(Eigen::LLT<Eigen::MatrixXd>(group.covariance).matrixL()));
     }
     Noise noise(2024);
     constexpr int k_trials = 200;

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -10,6 +11,7 @@
 
 #include "engine/rotary_table/evaluation/rotary_table_evaluation.h"
 #include "engine/rotary_table/evaluation/sequential_evaluation.h"
+#include "gum/quantity/dense_factors.h"
 #include "tests/support/synthetic_campaign.h"
 
 namespace gumcert::engine {
@@ -288,8 +290,9 @@ TEST(TableParameterModel, UncertaintiesAreThoseOfSimulatedMeasurements) {
     const Eigen::VectorXd positions = visit_positions(nominal, reported, model.gains());
     std::vector<Eigen::MatrixXd> factors;
     for (const gum::InputGroup& group : model.inputs()) {
-        factors.emplace_back(group.is_diagonal() ? Eigen::MatrixXd(group.covariance.cwiseSqrt())
-                                                 : Eigen::MatrixXd(group.covariance.llt().matrixL()));
+        factors.emplace_back(group.is_diagonal()
+                                 ? Eigen::MatrixXd(group.covariance.cwiseSqrt())
+                                 : Eigen::MatrixXd(Eigen::LLT<Eigen::MatrixXd>(group.covariance).matrixL()));
     }
     Noise noise(77);
     constexpr int k_trials = 300;
