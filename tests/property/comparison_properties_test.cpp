@@ -1,7 +1,7 @@
 // What must hold for every comparison between laboratories: on results, uncertainties and covariances made at random.
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -24,6 +24,7 @@
 #include "gum/expression/syntax_tree.h"
 #include "gum/monte_carlo/monte_carlo.h"
 #include "gum/propagation.h"
+#include "gum/quantity/dense_factors.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/unit.h"
 #include "gum/rounding.h"

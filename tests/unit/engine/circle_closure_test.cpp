@@ -3,11 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
-#include <Eigen/QR>
 #include <cmath>
 #include <random>
 #include <vector>
 
+#include "gum/quantity/dense_factors.h"
 #include "gum/quantity/diagnostic.h"
 
 namespace gumcert::engine {

@@ -3,10 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
-
 #include <cmath>
 #include <string>
 #include <tuple>
@@ -16,6 +12,7 @@
 #include "engine/rotary_table/studies/measurement_plan.h"
 #include "engine/rotary_table/table_parameters.h"
 #include "engine/rotary_table/variance_components.h"
+#include "gum/quantity/dense_factors.h"
 #include "tests/support/synthetic_campaign.h"
 
 namespace gumcert::engine {
@@ -41,7 +38,7 @@ Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& matrix) {
     const Eigen::VectorXd scale = matrix.diagonal().cwiseSqrt().cwiseInverse();
     const Eigen::MatrixXd scaled = scale.asDiagonal() * matrix * scale.asDiagonal();
     const Eigen::Index size = matrix.rows();
-    Eigen::MatrixXd inverse = scaled.llt().solve(Eigen::MatrixXd::Identity(size, size));
+    Eigen::MatrixXd inverse = Eigen::LLT<Eigen::MatrixXd>(scaled).solve(Eigen::MatrixXd::Identity(size, size));
     inverse = (inverse + inverse * (Eigen::MatrixXd::Identity(size, size) - scaled * inverse)).eval();
     return scale.asDiagonal() * inverse * scale.asDiagonal();
 }
@@ -274,8 +271,8 @@ TEST_P(LinearGrowth, ConditionNumberIsThatOfTheDenseEigenvalues) {
     const NormalEquations normal = joint().adjustment().linearise();
     const Eigen::MatrixXd full = dense_normal(normal);
     const Eigen::VectorXd scale = full.diagonal().cwiseSqrt().cwiseInverse();
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scale.asDiagonal() * full * scale.asDiagonal(),
-                                                               Eigen::EigenvaluesOnly);
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
+        Eigen::MatrixXd(scale.asDiagonal() * full * scale.asDiagonal()), Eigen::EigenvaluesOnly);
     const double expected = std::sqrt(eigen.eigenvalues()[full.rows() - 1] / eigen.eigenvalues()[0]);
     // Dense eigenvalues know the smallest one to 1e-16 of the largest only, times the condition number squared.
     EXPECT_NEAR(normal.condition_number() / expected, 1.0, 1e-14 * expected * expected);
@@ -346,7 +343,8 @@ TEST_P(LinearGrowth, VarianceComponentsAreThoseOfTheDenseTraces) {
     const Eigen::VectorXd scale = fisher.diagonal().cwiseSqrt().cwiseInverse();
     const Eigen::VectorXd next =
         theta + scale.asDiagonal() *
-                    (scale.asDiagonal() * fisher * scale.asDiagonal()).ldlt().solve(scale.asDiagonal() * score);
+                    Eigen::LLT<Eigen::MatrixXd>(Eigen::MatrixXd(scale.asDiagonal() * fisher * scale.asDiagonal()))
+                        .solve(scale.asDiagonal() * score);
     ASSERT_GT(next.minCoeff(), 0.0) << "the case is to be free of bounds";
     const std::array<double, 5> found{step.stochastic.length_factor, step.stochastic.variance_linear,
                                       step.stochastic.variance_axial, step.stochastic.variance_tilt,

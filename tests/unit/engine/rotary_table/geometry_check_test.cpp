@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -14,6 +13,7 @@
 #include "engine/rotary_table/datum.h"
 #include "engine/rotary_table/evaluation/rotary_table_evaluation.h"
 #include "engine/rotary_table/joint_adjustment.h"
+#include "gum/quantity/dense_factors.h"
 #include "tests/support/synthetic_campaign.h"
 
 namespace gumcert::engine {

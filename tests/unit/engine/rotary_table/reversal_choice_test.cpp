@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/QR>
-
 #include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/complement.hpp>
@@ -14,6 +12,7 @@
 #include "engine/rotary_table/anglewise_map.h"
 #include "engine/rotary_table/evaluation/rotary_table_evaluation.h"
 #include "engine/rotary_table/rotary_table_contributions.h"
+#include "gum/quantity/dense_factors.h"
 #include "tests/support/synthetic_campaign.h"
 
 namespace gumcert::engine {
@@ -208,7 +207,7 @@ TEST(ReversalChoice, TestValueIsThatOfDenseMatricesWithADriftOfEachStation) {
     }
     const Eigen::VectorXd scale = J.colwise().norm().cwiseInverse();
     const Eigen::MatrixXd scaled = J * scale.asDiagonal();
-    const Eigen::VectorXd step = scale.cwiseProduct(scaled.colPivHouseholderQr().solve(r));
+    const Eigen::VectorXd step = scale.cwiseProduct(Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(scaled).solve(r));
     const Eigen::MatrixXd inverse =
         (scaled.transpose() * scaled).ldlt().solve(Eigen::MatrixXd::Identity(J.cols(), J.cols()));
     const Eigen::MatrixXd covariance = scale.asDiagonal() * inverse * scale.asDiagonal();

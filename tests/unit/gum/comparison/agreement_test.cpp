@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Cholesky>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -12,6 +11,7 @@
 
 #include "gum/comparison/scores.h"
 #include "gum/coverage.h"
+#include "gum/quantity/dense_factors.h"
 #include "gum/quantity/diagnostic.h"
 #include "tests/unit/gum/printed.h"
 

@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Cholesky>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -15,6 +13,7 @@
 
 #include "engine/rotary_table/evaluation/rotary_table_evaluation.h"
 #include "engine/rotary_table/start/start_values.h"
+#include "gum/quantity/dense_factors.h"
 #include "tests/support/synthetic_campaign.h"
 
 namespace gumcert::engine {
@@ -75,7 +74,7 @@ Eigen::VectorXd draw(const gum::MeasurementModel& model, Noise& noise, double sp
         } else if (group.is_diagonal() || n == 1) {
             x.segment(first, n) += group.covariance.col(0).cwiseSqrt().cwiseProduct(deviates);
         } else {
-            x.segment(first, n) += group.covariance.llt().matrixL() * deviates;
+            x.segment(first, n) += Eigen::LLT<Eigen::MatrixXd>(group.covariance).matrixL() * deviates;
         }
         first += n;
     }
