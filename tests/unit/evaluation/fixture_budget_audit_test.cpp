@@ -24,13 +24,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path k_example = fs::path(GUMCERT_SOURCE_DIR) / "examples/rotary_table";
+const fs::path k_rotary_table = fs::path(GUMCERT_SOURCE_DIR) / "examples/rotary_table";
 constexpr const char* k_job = "job_with_paper_fixture_budget.json";
 constexpr const char* k_points = "paper_fixture_points.csv";
 
 std::map<std::string, std::string> files_of_example() {
     std::map<std::string, std::string> files;
-    for (const fs::directory_entry& entry : fs::directory_iterator(k_example)) {
+    for (const fs::directory_entry& entry : fs::directory_iterator(k_rotary_table)) {
         files[entry.path().filename().string()] = test::file_content(entry.path());
     }
     return files;
@@ -64,7 +64,7 @@ double another_power_of_ten(double mpe) {
 
 const audit::AuditReport& audited_example() {
     static const audit::AuditReport report =
-        audit_file(k_example / k_job, 1, fs::path(GUMCERT_SOURCE_DIR) / "templates").report;
+        audit_file(k_rotary_table / k_job, 1, fs::path(GUMCERT_SOURCE_DIR) / "templates").report;
     return report;
 }
 

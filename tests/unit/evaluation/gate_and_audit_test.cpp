@@ -29,13 +29,13 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 
-const std::filesystem::path k_tree = GUMCERT_SOURCE_DIR;
+const std::filesystem::path k_source_tree = GUMCERT_SOURCE_DIR;
 
 /// A length of 10 mm at points of an offset, normal, u = 0.1 µm, under the certificate of the example.
 class GateAndAudit : public testing::Test {
 protected:
     GateAndAudit() {
-        const std::filesystem::path example = k_tree / "examples" / "certificate";
+        const std::filesystem::path example = k_source_tree / "examples" / "certificate";
         symbol_ = test::file_content(example / "symbol.png");
         data_ = json::parse(test::file_content(example / "end_gauge_certificate.json"));
         data_["specifications"][0]["lower"] = 9.999;
@@ -65,7 +65,7 @@ protected:
                     {"certificate", data}};
         job.update(more);
         const jobs::MemoryFileSource files({{"job.json", job.dump()}, {"symbol.png", symbol_}, {"own.json", profile}});
-        return evaluate_job(files, "job.json", CovarianceFile::none, 1, k_tree / "templates");
+        return evaluate_job(files, "job.json", CovarianceFile::none, 1, k_source_tree / "templates");
     }
     std::string symbol_;
     json data_;
@@ -276,7 +276,7 @@ TEST_F(GateAndAudit, TheLargestUOfARuleIsInTheUnitOfItsSpecification) {
 
 // The page says by which rule it was decided, and on which condition: the U that it prints has to keep it, or not.
 TEST_F(GateAndAudit, StateTheRuleWhoseConditionThePrintedNumbersKeep) {
-    json profile = json::parse(test::file_content(k_tree / "templates" / "profiles" / "ilac.json"));
+    json profile = json::parse(test::file_content(k_source_tree / "templates" / "profiles" / "ilac.json"));
     profile["id"] = "own";
     std::size_t moved = 0, kept = 0, missed = 0;
     for (const char* rounding : {"half_even", "up"}) {
@@ -352,7 +352,7 @@ TEST_F(GateAndAudit, StateDegreesOfFreedomThatAreTooManyToPrintAsSuch) {
 
 TEST_F(GateAndAudit, HoldUAgainstTheCapabilityAlikeByEveryProfile) {
     std::size_t outside = 0, refused = 0, raised = 0, profiles = 0;
-    for (const auto& file : std::filesystem::directory_iterator(k_tree / "templates" / "profiles")) {
+    for (const auto& file : std::filesystem::directory_iterator(k_source_tree / "templates" / "profiles")) {
         json profile = json::parse(test::file_content(file.path()));
         profile["id"] = "own";
         profile["required_languages"] = json::array();

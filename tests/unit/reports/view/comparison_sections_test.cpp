@@ -56,11 +56,11 @@ RenderAssets in(const std::string& language) {
     return a;
 }
 
-json view_of(const EvaluationRecord& record, const std::string& language = "en") {
+json view_of_comparison(const EvaluationRecord& record, const std::string& language = "en") {
     return certificate_view(record, Wording(comparison_wording(language)));
 }
 
-std::string text_of(const EvaluationRecord& record, const std::string& language = "en") {
+std::string text_of_comparison(const EvaluationRecord& record, const std::string& language = "en") {
     return squeezed(render_text(record, in(language)));
 }
 
@@ -69,7 +69,7 @@ std::string lower(std::string text) {
     return text;
 }
 
-std::vector<std::string> sections_of(const json& view) {
+std::vector<std::string> sections_of_comparison(const json& view) {
     std::vector<std::string> ids;
     for (const json& section : view["sections"]) {
         ids.push_back(section["id"]);
@@ -102,7 +102,7 @@ std::vector<EvaluationRecord> samples() {
 
 /// Text of the first page: the section with the answer.
 std::string answer_of(const EvaluationRecord& record, const std::string& language = "en") {
-    const std::string text = text_of(record, language);
+    const std::string text = text_of_comparison(record, language);
     const json words = comparison_wording(language);
     const std::size_t end = text.find(
         words["heading"][record.comparison->form == "laboratories" ? "how_to_read" : "companion"].get<std::string>());
@@ -147,7 +147,7 @@ TEST(ComparisonReport, NamesTheLimitOfThePowerThatDecides) {
     EvaluationRecord record = test::sample_methods_record();
     record.comparison->summary[0].power_to_confirm = {0.905, "90.5 %"};
     for (const std::string& language : k_languages) {
-        EXPECT_THAT(text_of(record, language), HasSubstr(" 92 %")) << language;
+        EXPECT_THAT(text_of_comparison(record, language), HasSubstr(" 92 %")) << language;
     }
 }
 
@@ -187,7 +187,8 @@ TEST(ComparisonReport, FirstPageSaysWhatIsStatedOfTheArtefact) {
     EvaluationRecord record = one_item(6);
     record.comparison->artefact_stability = "drift below 5 nm in two years, in u(X)";
     for (const std::string& language : k_languages) {
-        EXPECT_THAT(text_of(record, language), HasSubstr("drift below 5 nm in two years, in u(X)")) << language;
+        EXPECT_THAT(text_of_comparison(record, language), HasSubstr("drift below 5 nm in two years, in u(X)"))
+            << language;
     }
 }
 
@@ -201,7 +202,7 @@ TEST(ComparisonReport, FirstPageSaysHowTheAssignedValueWasFoundAndWhoReportedNot
     EXPECT_THAT(answer_of(record), HasSubstr("Without a result Lab 99"));
 
     EvaluationRecord several = test::sample_laboratories_record();
-    const auto rows = rows_of(view_of(several), "assigned-values");
+    const auto rows = rows_of(view_of_comparison(several), "assigned-values");
     ASSERT_EQ(rows.size(), several.comparison->items.size());
     EXPECT_THAT(rows[0], Contains(HasSubstr(several.comparison->items[0].value.text)));
 }
@@ -234,9 +235,9 @@ TEST(ComparisonReport, TheTestSaysThatItHoldsTheUncertaintyOfTheItems) {
     EvaluationRecord record = one_item(6);
     ComparisonItemEvaluation& item = record.comparison->items[0];
     item.consistency = ConsistencySummary{};
-    EXPECT_THAT(text_of(record), Not(HasSubstr("the uncertainty of the items")));
+    EXPECT_THAT(text_of_comparison(record), Not(HasSubstr("the uncertainty of the items")));
     item.consistency->u_items = {0.25, "0.25"};
-    EXPECT_THAT(text_of(record), HasSubstr("the uncertainty of the items, 0.25"));
+    EXPECT_THAT(text_of_comparison(record), HasSubstr("the uncertainty of the items, 0.25"));
 }
 
 TEST(ComparisonReport, FirstPageNamesResultsWhoseAgreementIsOpen) {
@@ -257,20 +258,20 @@ TEST(ComparisonReport, UnroundedNumbersHaveTheirUnitsAndTheFormulasThatUseThem) 
     EvaluationRecord record = one_item(6);
     record.comparison->unit = "degC";
     record.comparison->items[0].difference_unit = "K";
-    const json table = block(view_of(record), "table", "unrounded");
+    const json table = block(view_of_comparison(record), "table", "unrounded");
     std::vector<std::string> heads;
     for (const json& column : table["columns"]) {
         heads.push_back(column["head"].get<std::string>() +
                         (column["unit"].empty() ? "" : "/" + column["unit"][0]["text"].get<std::string>()));
     }
     EXPECT_THAT(heads, ::testing::IsSupersetOf({"x/°C", "u(x)/K", "k"}));
-    EXPECT_THAT(text_of(record), HasSubstr("U²(D) = U²(x) + U²(X) − 2 r U(x) U(X)"));
+    EXPECT_THAT(text_of_comparison(record), HasSubstr("U²(D) = U²(x) + U²(X) − 2 r U(x) U(X)"));
 }
 
 TEST(ComparisonReport, DifferencesOfMethodsInCelsiusAreKelvin) {
     EvaluationRecord record = test::sample_methods_record();
     record.comparison->unit = "degC";
-    const json table = block(view_of(record), "table", "comparison-points");
+    const json table = block(view_of_comparison(record), "table", "comparison-points");
     std::map<std::string, std::string> unit;
     for (const json& column : table["columns"]) {
         unit[column["head"]] = column["unit"].empty() ? "" : column["unit"][0]["text"].get<std::string>();
@@ -292,8 +293,9 @@ TEST(ComparisonReport, ItemsHaveOneNameEverywhere) {
     c.youden[0].round = "2";
     EXPECT_THAT(html_text(render_html(record, in("en"))),
                 HasSubstr("Deviations for solution " + c.youden[0].first_item + ", round 2"));
-    EXPECT_THAT(text_of(record), HasSubstr("line of equal deviations"));  // no empty section where there is no drawing
-    for (const auto& row : rows_of(view_of(record), "unrounded")) {
+    EXPECT_THAT(text_of_comparison(record),
+                HasSubstr("line of equal deviations"));  // no empty section where there is no drawing
+    for (const auto& row : rows_of(view_of_comparison(record), "unrounded")) {
         EXPECT_THAT(row[0], ::testing::StartsWith("solution "));
     }
 }
@@ -301,7 +303,7 @@ TEST(ComparisonReport, ItemsHaveOneNameEverywhere) {
 TEST(ComparisonReport, MissingTestOfConsistencyIsNotLaidToResultsThatHaveUncertainties) {
     EvaluationRecord record = one_item(6);
     record.comparison->items[0].consistency = std::nullopt;  // one of many contributing results states no uncertainty
-    EXPECT_THAT(text_of(record), HasSubstr("a stated uncertainty of each of these"));
+    EXPECT_THAT(text_of_comparison(record), HasSubstr("a stated uncertainty of each of these"));
 }
 
 TEST(ComparisonReport, SummaryOfPointsDoesNotCallChanceADisagreement) {
@@ -316,7 +318,7 @@ TEST(ComparisonReport, IsNoCertificate) {
         for (const std::string& language : k_languages) {
             const json words = comparison_wording(language)["document"];
             const std::string html = render_html(record, in(language));
-            const std::string text = text_of(record, language);
+            const std::string text = text_of_comparison(record, language);
             for (const char* key : {"type", "mark", "mark_reason", "end_mark", "only_items", "draft"}) {
                 EXPECT_THAT(html, Not(HasSubstr(words[key].get<std::string>()))) << language << " " << key;
                 EXPECT_THAT(text, Not(HasSubstr(words[key].get<std::string>()))) << language << " " << key;
@@ -327,7 +329,7 @@ TEST(ComparisonReport, IsNoCertificate) {
         const std::string english = lower(render_text(record, in("en")));
         EXPECT_THAT(english, Not(HasSubstr("certificate")));
         EXPECT_THAT(english, Not(HasSubstr("specimen")));
-        const json view = view_of(record);
+        const json view = view_of_comparison(record);
         EXPECT_TRUE(view["mark"].empty());
         EXPECT_TRUE(view["identity"].empty());
         EXPECT_THAT(view["header_right"].get<std::string>(), HasSubstr("Comparison report"));
@@ -337,7 +339,7 @@ TEST(ComparisonReport, IsNoCertificate) {
 
 TEST(ComparisonReport, BeginsWithTheAnswer) {
     for (const EvaluationRecord& record : samples()) {
-        const json section = view_of(record)["sections"][0];
+        const json section = view_of_comparison(record)["sections"][0];
         EXPECT_EQ(section["id"], "answer");
         EXPECT_FALSE(section["blocks"][0]["paragraph"].empty()) << "the verdict comes first";
         const auto has = [&](const char* kind) {
@@ -355,17 +357,18 @@ TEST(ComparisonReport, SaysWhoIssuedItAndWhen) {
     certificate::LocalisedText laboratory;
     laboratory.by_language = {{"de", "Beispiel-Institut"}, {"en", "Example Metrology Institute"}};
     record.comparison->issuer = ComparisonIssuer{laboratory, "KC-14", "2026-11-21"};
-    const json view = view_of(record, "de");
+    const json view = view_of_comparison(record, "de");
     EXPECT_EQ(view["header_left"], "Beispiel-Institut");
     EXPECT_EQ(view["header_right"], "Vergleichsbericht KC-14");
     EXPECT_EQ(view["created"]["year"], "2026");
     EXPECT_EQ(view["created"]["month"], "11");
     EXPECT_THAT(view["sections"][0].dump(), HasSubstr("2026-11-21"));
     record.job_json = R"({"certificate": {"number": "OTHER", "dates": {"issued": "2020-01-01"}}})";
-    EXPECT_THAT(view_of(record)["header_right"].get<std::string>(), HasSubstr("KC-14")) << "no document reads the job";
+    EXPECT_THAT(view_of_comparison(record)["header_right"].get<std::string>(), HasSubstr("KC-14"))
+        << "no document reads the job";
     record.comparison->issuer.reset();
-    EXPECT_EQ(view_of(record)["header_right"], "Comparison report");
-    EXPECT_EQ(view_of(record)["created"]["year"], "1970");
+    EXPECT_EQ(view_of_comparison(record)["header_right"], "Comparison report");
+    EXPECT_EQ(view_of_comparison(record)["created"]["year"], "1970");
 }
 
 TEST(ComparisonReport, ANameOfABudgetDoesNotTellWhoseItIs) {
@@ -384,22 +387,22 @@ TEST(ComparisonReport, ANameOfABudgetDoesNotTellWhoseItIs) {
                            .action = "",
                            .severity = gum::Severity::warning}};
     for (const std::string& language : k_languages) {
-        const std::string printed = view_of(record, language).dump();
+        const std::string printed = view_of_comparison(record, language).dump();
         for (const char* name : {"smith", "meyer", "steel.json"}) {
             EXPECT_THAT(printed, Not(HasSubstr(name))) << language;
         }
     }
-    const std::string printed = view_of(record).dump();
+    const std::string printed = view_of_comparison(record).dump();
     EXPECT_THAT(printed, HasSubstr("budget of " + c.participants[1].id));
     EXPECT_THAT(printed, HasSubstr("budget of " + c.participants[2].id));
     EXPECT_THAT(printed, HasSubstr("file 3"));
     c.names_released = true;
-    EXPECT_THAT(view_of(record).dump(), HasSubstr("meyer-indicator.csv"));
+    EXPECT_THAT(view_of_comparison(record).dump(), HasSubstr("meyer-indicator.csv"));
 }
 
 TEST(ComparisonReport, HoldsEveryPrintedNumberOfTheResults) {
     const EvaluationRecord record = test::sample_laboratories_record();
-    const json view = view_of(record);
+    const json view = view_of_comparison(record);
     for (std::size_t i = 0; i < record.comparison->items.size(); ++i) {
         const ComparisonItemEvaluation& item = record.comparison->items[i];
         const auto rows = rows_of(view, "results-" + std::to_string(i + 1));
@@ -416,7 +419,7 @@ TEST(ComparisonReport, HoldsEveryPrintedNumberOfTheResults) {
             ++at;
         }
         EXPECT_EQ(at, rows.size());
-        const std::string text = text_of(record);
+        const std::string text = text_of_comparison(record);
         for (const std::string& printed :
              {item.value.text, item.u.text, item.U.text, item.u_characterisation.text, item.u_homogeneity.text,
               item.u_stability.text, item.sigma_pt.text, item.delta_E.text, item.s_star.text,
@@ -432,7 +435,7 @@ TEST(ComparisonReport, HoldsEveryPrintedNumberOfTheResults) {
 
 TEST(ComparisonReport, HoldsEveryPrintedNumberOfThePoints) {
     const EvaluationRecord record = test::sample_methods_record();
-    const json view = view_of(record);
+    const json view = view_of_comparison(record);
     const auto rows = rows_of(view, "comparison-points");
     ASSERT_EQ(rows.size(), record.comparison->points.size());
     for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -479,7 +482,7 @@ TEST(ComparisonReport, SaysValidatedForThatVerdictOnly) {
         for (const std::string& verdict : k_verdicts) {
             const EvaluationRecord record = with_verdicts({verdict});
             const std::string html = lower(html_text(render_html(record, in(language))));
-            const std::string text = lower(text_of(record, language));
+            const std::string text = lower(text_of_comparison(record, language));
             if (verdict == "validated") {
                 EXPECT_THAT(html, HasSubstr(said)) << language;
                 EXPECT_THAT(text, HasSubstr(said)) << language;
@@ -491,7 +494,7 @@ TEST(ComparisonReport, SaysValidatedForThatVerdictOnly) {
             }
         }
         for (const EvaluationRecord& record : {test::sample_laboratories_record(), one_item(6)}) {
-            EXPECT_THAT(lower(text_of(record, language)), Not(HasSubstr(stems[0]))) << language;
+            EXPECT_THAT(lower(text_of_comparison(record, language)), Not(HasSubstr(stems[0]))) << language;
         }
     }
 }
@@ -507,7 +510,7 @@ TEST(ComparisonReport, OneDirectionAloneValidatesNothing) {
             const EvaluationRecord record = with_verdicts(verdicts);
             for (const std::string& language : k_languages) {
                 const json words = comparison_wording(language);
-                const std::string text = text_of(record, language);
+                const std::string text = text_of_comparison(record, language);
                 EXPECT_THAT(text, Not(HasSubstr(words["comparison_verdict_name"]["validated"].get<std::string>())))
                     << language << " " << objection;
                 EXPECT_THAT(
@@ -519,7 +522,7 @@ TEST(ComparisonReport, OneDirectionAloneValidatesNothing) {
 
 TEST(ComparisonReport, TheGravestObjectionIsTheVerdict) {
     const auto first = [](const EvaluationRecord& record) {
-        return view_of(record)["sections"][0]["blocks"][0]["paragraph"][0]["text"].get<std::string>();
+        return view_of_comparison(record)["sections"][0]["blocks"][0]["paragraph"][0]["text"].get<std::string>();
     };
     EXPECT_THAT(first(with_verdicts({"uncertainty_too_large", "reference_not_better", "validated"})),
                 HasSubstr("the reference is not better than the method"));
@@ -566,12 +569,12 @@ TEST(ComparisonReport, AWorstEnWithoutALimitIsSaid) {
             std::erase_if(text, [](char c) { return c == ' ' || c == '\n'; });
             return text;
         };
-        EXPECT_THAT(without_blanks(text_of(record, language)), HasSubstr(without_blanks(said))) << language;
-        EXPECT_THAT(text_of(record, language), HasSubstr("∞")) << language << ": the table";
+        EXPECT_THAT(without_blanks(text_of_comparison(record, language)), HasSubstr(without_blanks(said))) << language;
+        EXPECT_THAT(text_of_comparison(record, language), HasSubstr("∞")) << language << ": the table";
         for (ComparisonSummary& s : record.comparison->summary) {
             s.max_abs_En_worst = {3.04, "3.04"};
         }
-        EXPECT_THAT(text_of(record, language), Not(HasSubstr(squeezed(said)))) << language;
+        EXPECT_THAT(text_of_comparison(record, language), Not(HasSubstr(squeezed(said)))) << language;
     }
 }
 
@@ -582,7 +585,7 @@ TEST(ComparisonReport, WhatFallsWithAFindingIsNamed) {
         for (ComparisonSummary& s : record.comparison->summary) {
             s.verdict_audited = corrected;
         }
-        return view_of(record)["sections"][0]["blocks"][0]["paragraph"][0]["text"].get<std::string>();
+        return view_of_comparison(record)["sections"][0]["blocks"][0]["paragraph"][0]["text"].get<std::string>();
     };
     for (const std::string& verdict : k_verdicts) {
         if (verdict.empty() || verdict == "validated" || verdict == "side_refuted" || verdict == "falls_with_finding") {
@@ -597,15 +600,15 @@ TEST(ComparisonReport, WhatFallsWithAFindingIsNamed) {
 
 TEST(ComparisonReport, TestsAreSaidInBothDirections) {
     EvaluationRecord record = one_item(6);
-    EXPECT_THAT(text_of(record), HasSubstr("The results that went into the test are consistent"));
-    EXPECT_THAT(text_of(record), HasSubstr("This is a rule of thumb"));
+    EXPECT_THAT(text_of_comparison(record), HasSubstr("The results that went into the test are consistent"));
+    EXPECT_THAT(text_of_comparison(record), HasSubstr("This is a rule of thumb"));
     ComparisonItemEvaluation& item = record.comparison->items[0];
     item.consistency->consistent = false;
     item.homogeneity->sufficient = item.homogeneity->sufficient_expanded = false;
     item.stability->stable = false;
     item.consensus->consistent = false;
     item.criterion_met = false;
-    const std::string text = text_of(record);
+    const std::string text = text_of_comparison(record);
     EXPECT_THAT(text, HasSubstr("The results that went into the test are not consistent"));
     EXPECT_THAT(text, HasSubstr("not homogeneous enough"));
     EXPECT_THAT(text, HasSubstr("sufficiently stable by the expanded criterion only"));
@@ -626,7 +629,7 @@ TEST(ComparisonReport, SaysWhatIsAbsentWhereAReaderLooksForIt) {
     item.method = "algorithm_a";
     record.comparison->organiser.clear();
     record.comparison->shared_sources.clear();
-    const std::string text = text_of(record);
+    const std::string text = text_of_comparison(record);
     EXPECT_THAT(text, HasSubstr("traceable only as far as these results are"));
     EXPECT_THAT(text, HasSubstr("The consistency of the results was not tested"));
     EXPECT_THAT(text, HasSubstr("no data on the homogeneity and stability"));
@@ -635,7 +638,7 @@ TEST(ComparisonReport, SaysWhatIsAbsentWhereAReaderLooksForIt) {
     EXPECT_THAT(text, Not(HasSubstr("Degrees of equivalence of pairs")));
     item.method = "reference";
     item.reference_participant = "L001";
-    EXPECT_THAT(text_of(record), HasSubstr("that of the result of L001"));
+    EXPECT_THAT(text_of_comparison(record), HasSubstr("that of the result of L001"));
 
     EvaluationRecord methods = test::sample_methods_record();
     for (ComparisonSummary& s : methods.comparison->summary) {
@@ -643,7 +646,7 @@ TEST(ComparisonReport, SaysWhatIsAbsentWhereAReaderLooksForIt) {
         s.p_low.number.reset();
         s.p_low.text.clear();
     }
-    const std::string without = text_of(methods);
+    const std::string without = text_of_comparison(methods);
     EXPECT_THAT(without, HasSubstr("No bias line was fitted"));
     EXPECT_THAT(without, Not(HasSubstr("p_low ")));
 }
@@ -652,7 +655,7 @@ TEST(ComparisonReport, ScoresDecideTheWords) {
     EvaluationRecord record = one_item(6);
     Comparison& c = *record.comparison;
     const auto first = [&] {
-        return view_of(record)["sections"][0]["blocks"][0]["paragraph"][0]["text"].get<std::string>();
+        return view_of_comparison(record)["sections"][0]["blocks"][0]["paragraph"][0]["text"].get<std::string>();
     };
     for (ComparisonPoint& p : c.points) {
         p.signal = "none";
@@ -675,7 +678,7 @@ TEST(ComparisonReport, ScoresDecideTheWords) {
 }
 
 TEST(ComparisonReport, ThePairsAreListedDrawnOrBoth) {
-    const auto view = [](std::size_t laboratories) { return view_of(one_item(laboratories)); };
+    const auto view = [](std::size_t laboratories) { return view_of_comparison(one_item(laboratories)); };
     EXPECT_EQ(rows_of(view(6), "pairs-1")[0].size(), 5U);  // i, j, d, U, E_n
     const auto matrix = rows_of(view(12), "pairs-1");      // two of the twelve have no uncertainty or no result
     ASSERT_EQ(matrix.size(), 10U);
@@ -693,9 +696,9 @@ TEST(ComparisonReport, PairsSayThatTheyHoldTheUncertaintyOfTheItems) {
     ComparisonItemEvaluation& item = record.comparison->items[0];
     item.u_homogeneity.number = std::nullopt;
     item.u_stability.number = std::nullopt;
-    EXPECT_THAT(text_of(record), Not(HasSubstr("of pairs hold the uncertainty of both items")));
+    EXPECT_THAT(text_of_comparison(record), Not(HasSubstr("of pairs hold the uncertainty of both items")));
     item.u_homogeneity.number = 0.1;
-    EXPECT_THAT(text_of(record), HasSubstr("of pairs hold the uncertainty of both items"));
+    EXPECT_THAT(text_of_comparison(record), HasSubstr("of pairs hold the uncertainty of both items"));
 }
 
 TEST(ComparisonReport, LongNamesAreNoHeadsOfColumns) {
@@ -704,7 +707,7 @@ TEST(ComparisonReport, LongNamesAreNoHeadsOfColumns) {
         pair.first = "Calibration Laboratory " + pair.first;
         pair.second = "Calibration Laboratory " + pair.second;
     }
-    const json view = view_of(record);
+    const json view = view_of_comparison(record);
     const auto rows = rows_of(view, "pairs-1");
     EXPECT_EQ(rows[0][0], "1: Calibration Laboratory L001");
     EXPECT_EQ(rows[9][0], "10: Calibration Laboratory L012");
@@ -716,12 +719,12 @@ TEST(ComparisonReport, LongNamesAreNoHeadsOfColumns) {
 
 TEST(ComparisonReport, APlotThatShowsNothingIsLeftOut) {
     EvaluationRecord record = test::sample_methods_record();
-    EXPECT_FALSE(block(view_of(record), "figure", "plot-values").is_null());
+    EXPECT_FALSE(block(view_of_comparison(record), "figure", "plot-values").is_null());
     for (ComparisonPoint& p : record.comparison->points) {
         p.value.number += 1e6;  // no difference can be seen beside it
         p.reference_value.number += 1e6;
     }
-    const json view = view_of(record);
+    const json view = view_of_comparison(record);
     EXPECT_TRUE(block(view, "figure", "plot-values").is_null());
     EXPECT_FALSE(block(view, "table", "comparison-points").is_null());
     for (const json& section : view["sections"]) {
@@ -733,20 +736,20 @@ TEST(ComparisonReport, APlotThatShowsNothingIsLeftOut) {
 
 TEST(ComparisonReport, NumbersToRecomputeAreUnrounded) {
     const EvaluationRecord record = one_item(6);
-    const auto rows = rows_of(view_of(record), "unrounded");
+    const auto rows = rows_of(view_of_comparison(record), "unrounded");
     ASSERT_EQ(rows.size(), record.comparison->points.size());
     EXPECT_EQ(std::stod(rows[0][1]), record.comparison->points[0].value.number);
     EXPECT_EQ(std::stod(rows[0][2]), *record.comparison->points[0].u);
-    EXPECT_EQ(rows_of(view_of(record), "unrounded-weights")[0].back(), "0.1");
+    EXPECT_EQ(rows_of(view_of_comparison(record), "unrounded-weights")[0].back(), "0.1");
     const EvaluationRecord methods = test::sample_methods_record();
-    const auto reference = rows_of(view_of(methods), "unrounded-reference");
+    const auto reference = rows_of(view_of_comparison(methods), "unrounded-reference");
     ASSERT_EQ(reference.size(), methods.comparison->points.size());
     const std::string& last = reference.back()[3];  // U+2212 is the minus sign of documents
     EXPECT_EQ(std::stod(last.starts_with("\u2212") ? "-" + last.substr(3) : last),
               methods.comparison->points.back().reference_value.number);
-    const json large = view_of(one_item(150));
+    const json large = view_of_comparison(one_item(150));
     EXPECT_TRUE(block(large, "table", "unrounded").is_null());
-    EXPECT_THAT(text_of(one_item(150)),
+    EXPECT_THAT(text_of_comparison(one_item(150)),
                 HasSubstr("of all 149 results are in the files comparison.csv and record.json"));
 }
 
@@ -761,7 +764,7 @@ TEST(ComparisonReport, OfManyLaboratoriesItShowsThoseWithSignals) {
     }
     std::sort(magnitudes.rbegin(), magnitudes.rend());
     ASSERT_EQ(magnitudes.size(), 330U);
-    const json view = view_of(record);
+    const json view = view_of_comparison(record);
     EXPECT_EQ(rows_of(view, "scores").size(), 24U) << "the first page stays one page";
     const auto rows = rows_of(view, "results-1");
     ASSERT_EQ(rows.size(), 200U);
@@ -771,17 +774,18 @@ TEST(ComparisonReport, OfManyLaboratoriesItShowsThoseWithSignals) {
             EXPECT_EQ(rows.at(at++)[0], p.participant);
         }
     }
-    EXPECT_THAT(text_of(record),
+    EXPECT_THAT(text_of_comparison(record),
                 HasSubstr("Of 499 rows 357 have a signal or an open judgement; the table shows the 200"));
     for (std::size_t i = 0; i < points.size(); ++i) {
         points[i].signal = i == 17 || i == 230 ? "action" : "none";
         points[i].En_worst.number = std::nullopt;  // an open judgement is shown as well
     }
-    EXPECT_EQ(rows_of(view_of(record), "results-1").size(), 2U);
-    EXPECT_THAT(text_of(record), HasSubstr("Of 499 rows the table shows 2 with a signal or an open judgement."));
+    EXPECT_EQ(rows_of(view_of_comparison(record), "results-1").size(), 2U);
+    EXPECT_THAT(text_of_comparison(record),
+                HasSubstr("Of 499 rows the table shows 2 with a signal or an open judgement."));
     points[17].signal = points[230].signal = "none";
-    EXPECT_TRUE(block(view_of(record), "table", "scores").is_null());
-    EXPECT_THAT(text_of(record), HasSubstr("none of them has a signal or an open judgement"));
+    EXPECT_TRUE(block(view_of_comparison(record), "table", "scores").is_null());
+    EXPECT_THAT(text_of_comparison(record), HasSubstr("none of them has a signal or an open judgement"));
 }
 
 TEST(ComparisonReport, ItsSizeHasALimit) {
@@ -800,17 +804,17 @@ TEST(ComparisonReport, ItsSizeHasALimit) {
             items.comparison->points.push_back(std::move(p));
         }
     }
-    const json view = view_of(items);
-    EXPECT_THAT(text_of(items), HasSubstr("Of 1001 items the 24 that matter most"));
+    const json view = view_of_comparison(items);
+    EXPECT_THAT(text_of_comparison(items), HasSubstr("Of 1001 items the 24 that matter most"));
     EXPECT_EQ(rows_of(view, "items").size(), 200U);
 }
 
 TEST(ComparisonReport, SectionsStandInTheirOrder) {
     EXPECT_THAT(
-        sections_of(view_of(test::sample_laboratories_record())),
+        sections_of_comparison(view_of_comparison(test::sample_laboratories_record())),
         ElementsAre("answer", "how_to_read", "comparison_remarks", "item-1", "item-2", "participants", "vectors",
                     "youden", "comparison_correlations", "recompute", "identification", "messages", "input"));
-    EXPECT_THAT(sections_of(view_of(test::sample_methods_record())),
+    EXPECT_THAT(sections_of_comparison(view_of_comparison(test::sample_methods_record())),
                 ElementsAre("answer", "companion", "comparison_remarks", "bias", "comparison_budgets", "points",
                             "recompute", "identification", "messages", "input"));
 }
@@ -861,11 +865,11 @@ TEST(ComparisonReport, TextsOfUsersStayTexts) {
 
 TEST(ComparisonReport, HoldsStringsOnlyAndIsTheSameTwice) {
     for (const EvaluationRecord& record : samples()) {
-        const json view = view_of(record);
+        const json view = view_of_comparison(record);
         for (const json& leaf : view.flatten()) {
             EXPECT_TRUE(leaf.is_string() || leaf.empty());
         }
-        EXPECT_EQ(view_of(record).dump(), view.dump());
+        EXPECT_EQ(view_of_comparison(record).dump(), view.dump());
     }
 }
 
@@ -922,10 +926,11 @@ TEST(ComparisonReport, PdfHasNoPageOfAFewLines) {
 TEST(ReferenceComparisonSection, HoldsVerdictAndCompanionNumbers) {
     EvaluationRecord record = test::sample_record();
     Comparison& c = *record.comparison;
-    const json old = view_of(record);  // as an earlier release evaluated it: without verdict and companion numbers
+    const json old =
+        view_of_comparison(record);  // as an earlier release evaluated it: without verdict and companion numbers
     EXPECT_EQ(rows_of(old, "comparison-summary").size(), 5U);
     EXPECT_TRUE(block(old, "table", "bias").is_null());
-    EXPECT_THAT(text_of(record), Not(HasSubstr("do not allow a verdict")));
+    EXPECT_THAT(text_of_comparison(record), Not(HasSubstr("do not allow a verdict")));
 
     const std::vector<ComparisonSummary> from = test::sample_methods_record().comparison->summary;
     for (std::size_t i = 0; i < c.summary.size(); ++i) {
@@ -934,18 +939,19 @@ TEST(ReferenceComparisonSection, HoldsVerdictAndCompanionNumbers) {
         c.summary[i].direction = direction;
         c.summary[i].verdict = "reference_not_better";
     }
-    const json view = view_of(record);
+    const json view = view_of_comparison(record);
     const auto rows = rows_of(view, "comparison-summary");
     ASSERT_EQ(rows[0].size(), c.summary.size() + 1);
     EXPECT_GT(rows.size(), 12U);
     EXPECT_EQ(rows_of(view, "bias").size(), c.summary.size());
-    EXPECT_THAT(text_of(record), HasSubstr("the reference is not better than the method"));
+    EXPECT_THAT(text_of_comparison(record), HasSubstr("the reference is not better than the method"));
     EXPECT_EQ(view["type"], "Calibration certificate");
-    EXPECT_THAT(text_of(record), Not(HasSubstr("Expanded uncertainties of differences")));
+    EXPECT_THAT(text_of_comparison(record), Not(HasSubstr("Expanded uncertainties of differences")));
     ASSERT_FALSE(c.points.empty());
     c.points[0].U_of_scores = {0.12, "0.12"};
-    EXPECT_THAT(text_of(record), HasSubstr(squeezed("Expanded uncertainties of differences for a coverage probability "
-                                                    "of 95.45 %, as Eₙ takes them")));
+    EXPECT_THAT(text_of_comparison(record),
+                HasSubstr(squeezed("Expanded uncertainties of differences for a coverage probability "
+                                   "of 95.45 %, as Eₙ takes them")));
 }
 
 }  // namespace
