@@ -279,17 +279,19 @@ function(gumcert_compile_as_one target files words)
     endif()
 endfunction()
 
-# gumcert_layer(folder [WORDS] [MATRICES] [PUBLIC package...] [PRIVATE package...] [HEADER_ONLY package...])
+# gumcert_layer(folder [WORDS] [MATRICES [FILES_AS_ONE number]]
+#               [PUBLIC package...] [PRIVATE package...] [HEADER_ONLY package...])
 #
 # WORDS: the layer handles texts and computes little.
 # MATRICES: the layer is full of expressions of matrices: fewer files make a unit, since the compiler needs more than twice
-# the time for twice as many templates in it.
+# the time for twice as many templates in it. FILES_AS_ONE: how many, where other than three serve better.
 # Makes the library gumcert::<folder with _ for />, linked with the layers of its entry above. HEADER_ONLY packages are
 # needed to compile the layer, but not by whoever links the installed library.
 function(gumcert_layer folder)
-    cmake_parse_arguments(PARSE_ARGV 1 ARG "WORDS;MATRICES" "" "PUBLIC;PRIVATE;HEADER_ONLY")
+    cmake_parse_arguments(PARSE_ARGV 1 ARG "WORDS;MATRICES" "FILES_AS_ONE" "PUBLIC;PRIVATE;HEADER_ONLY")
     if(ARG_UNPARSED_ARGUMENTS)
-        message(FATAL_ERROR "${folder}: ${ARG_UNPARSED_ARGUMENTS} — only WORDS, MATRICES, PUBLIC, PRIVATE and HEADER_ONLY are known")
+        message(FATAL_ERROR "${folder}: ${ARG_UNPARSED_ARGUMENTS} — only WORDS, MATRICES, FILES_AS_ONE, PUBLIC, PRIVATE "
+                            "and HEADER_ONLY are known")
     endif()
     if(NOT folder IN_LIST GUMCERT_LAYER_FOLDERS)
         message(FATAL_ERROR "${folder}: not a layer — every layer has its lines in cmake/gumcert_layers.cmake — "
@@ -306,7 +308,9 @@ function(gumcert_layer folder)
                                               $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/gumcert>)
     target_link_libraries(${name} PRIVATE $<BUILD_INTERFACE:gumcert_compile_options> ${ARG_PRIVATE} PUBLIC ${ARG_PUBLIC})
     set(files 0)
-    if(ARG_MATRICES)
+    if(ARG_FILES_AS_ONE)
+        set(files ${ARG_FILES_AS_ONE})
+    elseif(ARG_MATRICES)
         set(files 3)
     endif()
     gumcert_compile_as_one(${name} ${files} ${ARG_WORDS})

@@ -168,7 +168,7 @@ include({ROOT.as_posix()}/cmake/gumcert_header_self_check.cmake)
         self.expect(self.configure("gumcert_layer(utils)"), 1, "utils: not a layer")
 
     def test_argument_that_is_not_known(self):
-        self.expect(self.configure("gumcert_layer(gum NEEDS gum/quantity)"), 1, "NEEDS", "only WORDS, MATRICES, PUBLIC")
+        self.expect(self.configure("gumcert_layer(gum NEEDS gum/quantity)"), 1, "NEEDS", "only WORDS, MATRICES, FILES_AS_ONE, PUBLIC")
 
     def refused_build(self, expected):
         self.expect(self.configure("gumcert_layer(gum/quantity)\ngumcert_header_self_check()", "CXX"), 0)
