@@ -5,6 +5,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -231,6 +232,8 @@ struct AuditedBudget {
     /// What correlations that are not listed add to the variance, as the evaluation of the job has it: it stays as it is.
     /// Of a result of a certificate, which has no rows, all of u_c².
     double correlation_variance = 0.0;
+    /// Inputs of which the job says how any two of a set correlate, 0 too; what they add is in `correlation_variance`.
+    std::vector<std::set<std::string>> inputs_with_correlation = {};
     /// What the reported u² has beyond the law of propagation: terms of second order, or what trials of the model show. It
     /// has no part in ν_eff.
     double variance_beyond_tangent = 0.0;

@@ -346,6 +346,7 @@ AuditedBudget budget_of(const reports::EvaluationRecord& record, const reports::
     budget.place = "/results/" + result.name;
     budget.evaluated_here = true;
     add_rows(budget, result.budget, budget.place + "/budget", &record, &job, result.point);
+    budget.inputs_with_correlation = job.inputs_with_correlation();
     const std::string& quantity = result.quantity.empty() ? result.name : result.quantity;
     for (const std::string& equation : reports::equations_of(record, quantity)) {
         budget.equation += (budget.equation.empty() ? "" : "; ") + equation;
@@ -602,6 +603,9 @@ AuditedBudget side_of(const reports::Comparison& comparison, const std::vector<r
     side.place = place;
     side.evaluated_here = true;
     add_rows(side, rows, place, nullptr, job, "");
+    if (job != nullptr) {
+        side.inputs_with_correlation = job->inputs_with_correlation();
+    }
     return side;
 }
 

@@ -122,6 +122,31 @@ TEST(SubjectOfRecord, TakesTheStatementsOfInputsFromTheJob) {
     EXPECT_EQ(b.place, "/results/y/budget/1");
 }
 
+/// A correlation that the job states, in whichever way, and 0 too, is none that is neglected (S10).
+TEST(SubjectOfRecord, KnowsTheCorrelationsThatTheJobStates) {
+    const auto finds = [](const std::string& statement) {
+        reports::EvaluationRecord record = two_rows();
+        record.job_json =
+            R"({"inputs": {"a": {"value": 0, "unit": "um", "U": 0.6, "k": 2, "source": "certificate K-17"},
+            "b": {"value": 1, "unit": "um", "U": 0.8, "k": 2, "source": "certificate K-17"}})" +
+            statement + "}";
+        for (reports::BudgetRow& row : record.results[0].budget) {
+            row.source = "certificate K-17";
+        }
+        const AuditReport report = audit(subject_of(record, "record.json"), all_rules());
+        return std::any_of(report.findings.begin(), report.findings.end(),
+                           [](const AuditFinding& finding) { return finding.rule == "S10"; });
+    };
+    EXPECT_TRUE(finds(""));
+    EXPECT_TRUE(finds(R"(, "correlations": [["a", "c", 0.5]])"));
+    for (const char* const statement :
+         {R"(, "correlations": [["b", "a", 0.5]])", R"(, "correlations": [["a", "b", 0]])",
+          R"(, "simultaneous": [["c", "a", "b"]])",
+          R"(, "covariance": {"inputs": ["a", "b"], "matrix": {"file": "v.csv"}})"}) {
+        EXPECT_FALSE(finds(statement)) << statement;
+    }
+}
+
 /// What a job says in words of a u that it states alone counts the same wherever it stands.
 TEST(SubjectOfRecord, ReadsTheWordsOfSourceAndNote) {
     for (const std::string words :
