@@ -740,7 +740,9 @@ void degrees_of_freedom_of_correlated_rows(const AuditSubject& subject, FindingC
     for (std::size_t b = 0; b < subject.budgets.size(); ++b) {
         const AuditedBudget& budget = subject.budgets[b];
         const std::optional<BudgetOutcome> outcome = outcome_of(budget);
-        if (!outcome || budget.evaluated_here || budget.coverage.kind != CoverageRule::Kind::student_t ||
+        // A claimed k that is that of the correlated rows as one contribution is right.
+        const bool is_right = budget.claims.k && budget.coverage.correlated == CorrelatedRows::one_contribution;
+        if (!outcome || budget.evaluated_here || budget.coverage.kind != CoverageRule::Kind::student_t || is_right ||
             !std::isfinite(outcome->nu_eff)) {
             continue;
         }

@@ -57,6 +57,29 @@ TEST(Correlations, AreReadWhereverTheirLineHasR) {
     EXPECT_EQ(row.subject.budgets[0].rows.size(), 4U);
 }
 
+/// A difference of two rows that correlate has as many degrees of freedom as both: k = 2 is no fixed k of few, whatever the formula
+/// of independent rows would say; and a claim by either way is explained.
+TEST(Correlations, LeaveTheDegreesOfFreedomOfOneContribution) {
+    const std::string rows =
+        "Quantity,Estimate,Unit,u,nu,Sensitivity,Contribution\nGauge A,0,um,0.02,50,1,0.02\nGauge "
+        "B,0,um,0.02,50,-1,-0.02\n"
+        "Indication,0,um,0.01,9,1,0.01\nResolution,0,um,0.003,inf,1,0.003\n\"r(A, B)\",0.9,,,,,\nu_c,,um,0.0137,,,\n";
+    const auto rules_of = [&](const std::string& claims) {
+        const AuditReport report = audit_of_correlated(rows + claims);
+        std::string rules;
+        for (const AuditFinding& finding : report.findings) {
+            const bool is_looked_at =
+                finding.rule == "K01" || finding.rule == "K02" || finding.rule == "K03" || finding.rule == "S12";
+            rules += is_looked_at ? finding.rule : "";
+        }
+        return report.results.size() == 1U ? rules : "none";
+    };
+    EXPECT_EQ(rules_of("k,,,2,,,\nU,,um,0.027,,,\n"), "");
+    EXPECT_EQ(rules_of("nu_eff,,,28,,,\nk,,,2.09,,,\nU,,um,0.029,,,\n"), "");
+    EXPECT_EQ(rules_of("nu_eff,,,28.8,,,\nk,,,2.09,,,\nU,,um,0.029,,,\n"), "");
+    EXPECT_EQ(rules_of("nu_eff,,,4.8,,,\nk,,,2.69,,,\nU,,um,0.037,,,\n"), "S12");
+}
+
 TEST(Correlations, AreNoQuantitiesWithAnArgument) {
     const std::string heads = "Quantity,Value,u / %,Contribution / %\n",
                       claims = "Combined standard uncertainty,,,0.23\nExpanded uncertainty (k = 2),,,0.46\n";

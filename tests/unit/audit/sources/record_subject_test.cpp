@@ -14,6 +14,8 @@
 #include "audit/audit.h"
 #include "audit/budget_outcome.h"
 #include "audit/rules/registry.h"
+#include "gum/conformity/decision_rule.h"
+#include "gum/coverage.h"
 
 namespace gumcert::audit {
 namespace {
@@ -212,6 +214,32 @@ TEST(SubjectOfRecord, ClaimsTheNuThatIsStatedBesideTrials) {
         result.nu_eff = 482.0;
         EXPECT_EQ(audit(subject_of(record, "record.json"), all_rules()).results.at(0).claimed.nu_eff, 482.0);
     }
+}
+
+/// Correlated inputs are one contribution of the evaluation: its ν_eff is not what the formula of Welch and Satterthwaite gives for
+/// the rows as independent ones, and the audit says the same number as the record.
+TEST(SubjectOfRecord, HasTheDegreesOfFreedomOfTheEvaluation) {
+    for (const double nu : {1.2, 4.0, 28.8, 900.0}) {
+        reports::EvaluationRecord record = two_rows();
+        reports::Result& result = record.results[0];
+        for (reports::BudgetRow& row : result.budget) {
+            row.nu.number = 4.0;
+        }
+        result.u = result.reported.u.emplace(0.2);  // r below 0
+        result.nu_eff = nu;
+        result.k = result.reported.k.emplace(gum::coverage_factor(0.9545, nu));
+        result.U = result.reported.U.emplace(0.2 * *result.k);
+        const AuditReport report = audit(subject_of(record, "record.json"), all_rules());
+        const AuditedResult& audited = report.results.at(0);
+        EXPECT_NEAR(audited.recomputed.nu_eff, nu, 1e-6 * nu);
+        EXPECT_NEAR(audited.allowed.nu_eff.low, nu, 1e-6 * nu);
+        EXPECT_NEAR(audited.recomputed.k, *result.k, 1e-9);
+        EXPECT_EQ(report.subject.budgets[0].coverage.kind, CoverageRule::Kind::student_t);
+    }
+    reports::EvaluationRecord cancelled = two_rows();  // what has degrees of freedom cancels
+    cancelled.results[0].budget[0].nu.number = 4.0;
+    cancelled.results[0].u = cancelled.results[0].reported.u.emplace(0.2);
+    EXPECT_TRUE(std::isinf(evaluate(subject_of(cancelled, "record.json").budgets[0]).nu_eff));
 }
 
 TEST(SubjectOfRecord, KnowsWhatIsMeasured) {
