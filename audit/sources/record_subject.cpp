@@ -356,6 +356,16 @@ void state_degrees_of_freedom(AuditedBudget& budget, double u, const std::option
     }
 }
 
+/// U of a result, or the larger distance of an end of its interval from the value: what rules with U take where the interval
+/// alone is stated, on the certificate too.
+std::optional<double> half_width_of(const reports::ReportedResult& reported) {
+    if (reported.U || !reported.interval) {
+        return reported.U;
+    }
+    const auto [low, high] = *reported.interval;
+    return std::max(reported.value - low, high - reported.value);
+}
+
 /// Whether the evaluation cut ν_eff to the next lower whole number.
 bool cuts_degrees_of_freedom(const reports::EvaluationRecord& record) {
     const json options = json::parse(record.options_json, nullptr, false);
@@ -410,6 +420,10 @@ AuditedBudget budget_of(const reports::EvaluationRecord& record, const reports::
     const std::optional<double> k = by_trials ? reported.k : result.k;
     state_coverage(budget, by_trials ? "monte_carlo" : result.coverage, k, reported.coverage_probability,
                    cuts_degrees_of_freedom(record));
+    if (const std::optional<double> half_width = half_width_of(reported); by_trials && !k && half_width && u > 0.0) {
+        budget.coverage = {
+            .kind = CoverageRule::Kind::fixed, .k = *half_width / u, .probability = reported.coverage_probability};
+    }
     const bool is_convolved = result.coverage == "convolution";
     const bool is_of_rows = budget.coverage.kind != CoverageRule::Kind::fixed && budget.correlations.empty() &&
                             std::none_of(budget.rows.begin(), budget.rows.end(), [](const AuditedRow& row) {

@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <optional>
 #include <random>
 #include <set>
 #include <string>
@@ -240,6 +242,32 @@ TEST(SubjectOfRecord, HasTheDegreesOfFreedomOfTheEvaluation) {
     cancelled.results[0].budget[0].nu.number = 4.0;
     cancelled.results[0].u = cancelled.results[0].reported.u.emplace(0.2);
     EXPECT_TRUE(std::isinf(evaluate(subject_of(cancelled, "record.json").budgets[0]).nu_eff));
+}
+
+/// Where an interval is stated and no U, certificate and audit decide with one width: the larger distance of an end from the value.
+TEST(SubjectOfRecord, DecidesByTheIntervalThatIsStated) {
+    std::mt19937_64 drawn(5);
+    std::uniform_real_distribution<double> part(0.2, 3.0);
+    for (int trial = 0; trial < 30; ++trial) {
+        reports::EvaluationRecord record = two_rows();
+        reports::Result& result = record.results[0];
+        reports::ReportedResult& reported = result.reported;
+        const double below = part(drawn), above = part(drawn), width = std::max(below, above);
+        reported.method = "monte_carlo";
+        reported.U.reset();
+        reported.k.reset();
+        reported.u = trial % 3 == 0 ? std::nullopt : std::optional(0.4 * part(drawn));
+        reported.interval = std::array{reported.value - below, reported.value + above};
+        AuditSubject subject = subject_of(record, "record.json");
+        AuditedBudget& budget = subject.budgets.front();
+        EXPECT_FALSE(budget.claims.U || budget.claims.k);
+        EXPECT_NEAR(evaluate(budget).U, width, 1e-9);
+        budget.rule = gum::DecisionRule::guard_band_u;
+        budget.limits.upper = reported.value + 1.001 * width;
+        EXPECT_EQ(evaluate(budget).verdict, "pass");
+        budget.limits.upper = reported.value + 0.999 * width;
+        EXPECT_EQ(evaluate(budget).verdict, "fail");
+    }
 }
 
 TEST(SubjectOfRecord, KnowsWhatIsMeasured) {
