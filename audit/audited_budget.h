@@ -5,6 +5,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -137,6 +138,14 @@ struct RowCorrelation {
 /// k for a ν_eff; nothing where nobody can tell.
 using FactorOfNu = std::function<std::optional<double>(double nu_eff)>;
 
+/// What rows that correlate are in ν_eff, of which the formula of Welch and Satterthwaite asks for independent contributions (JCGM
+/// 100:2008, G.4.1).
+enum class CorrelatedRows {
+    whichever_has_more,  ///< of both below: only what neither allows is a fault
+    one_contribution,  ///< with the fewest degrees of freedom of one of them, as the evaluation takes correlated inputs
+    independent,       ///< as if they did not correlate: S12
+};
+
 /// How a budget comes from u_c to U.
 struct CoverageRule {
     enum class Kind {
@@ -149,6 +158,7 @@ struct CoverageRule {
     double probability = 0.9545;  ///< p of the others
     /// ν_eff is cut to the next lower whole number before k is taken (JCGM 100:2008, G.4.1)
     bool truncate = false;
+    CorrelatedRows correlated = CorrelatedRows::whichever_has_more;
     /// Of a budget that this program evaluated: each copy of it takes k as the evaluation would, t_p(ν_eff) or, where that
     /// of the convolution is more than 1 % away from it, the latter (ADR 0014, 0025), whichever `kind` the result has.
     bool chosen_anew = false;
@@ -231,6 +241,8 @@ struct AuditedBudget {
     /// What correlations that are not listed add to the variance, as the evaluation of the job has it: it stays as it is.
     /// Of a result of a certificate, which has no rows, all of u_c².
     double correlation_variance = 0.0;
+    /// Inputs of which the job says how any two of a set correlate, 0 too; what they add is in `correlation_variance`.
+    std::vector<std::set<std::string>> inputs_with_correlation = {};
     /// What the reported u² has beyond the law of propagation: terms of second order, or what trials of the model show. It
     /// has no part in ν_eff.
     double variance_beyond_tangent = 0.0;
@@ -238,6 +250,9 @@ struct AuditedBudget {
     /// What the sum Σ (c u)⁴/ν of Welch and Satterthwaite has beyond the rows, [unit⁴]: the degrees of freedom of u_c are known
     /// to the evaluation, and the rows do not have all of them.
     double fourth_powers_beyond_rows = 0.0;
+    /// ν_eff of the evaluation over that of the formula of Welch and Satterthwaite, which is one of independent rows
+    /// (JCGM 100:2008, G.4.1): correlated ones are one contribution there. It stays while findings are corrected.
+    double nu_eff_over_rows = 1.0;
     /// What the claimed numbers have beyond the rows: u_c of the claim over that of the rows, k of the claim over that of
     /// ν_eff of the rows, and U of the claim over k u_c. 1 where rows and claims agree within their rounding; a finding of
     /// its own (K01) where they do not. They stay while other findings are corrected.

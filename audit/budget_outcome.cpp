@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -32,16 +33,66 @@ double combined_variance(const AuditedBudget& budget) {
     return variance;
 }
 
-double effective_degrees_of_freedom(const AuditedBudget& budget, double u_c) {
-    double denominator = budget.fourth_powers_beyond_rows / (u_c * u_c) / (u_c * u_c);
+bool has_degrees_of_freedom(const AuditedRow& row) {
+    return std::isfinite(row.used_nu) && row.used_nu > 0.0;
+}
+
+/// Σ (c u)⁴/ν of the rows as if they were independent, in units of u_c⁴: the fourth power of a contribution in metres may leave
+/// the range of numbers.
+double fourth_powers_of_rows(const AuditedBudget& budget, double u_c) {
+    double sum = 0.0;
     for (const AuditedRow& row : budget.rows) {
-        // In units of u_c: the fourth power of a contribution in metres may leave the range of numbers.
         const double part = contribution_of(row) / u_c;
-        if (std::isfinite(row.used_nu) && row.used_nu > 0.0) {
-            denominator += part * part * part * part / row.used_nu;
+        sum += has_degrees_of_freedom(row) ? part * part * part * part / row.used_nu : 0.0;
+    }
+    return sum;
+}
+
+/// The same where rows that correlate are one contribution with the fewest degrees of freedom of one of them, as the evaluation
+/// takes correlated inputs: the formula is one of independent contributions (JCGM 100:2008, G.4.1).
+double fourth_powers_of_groups(const AuditedBudget& budget, double u_c) {
+    std::vector<std::size_t> group(budget.rows.size());
+    std::iota(group.begin(), group.end(), std::size_t{0});
+    const auto is_correlated = [&budget](const RowCorrelation& pair) {
+        return pair.r != 0.0 && budget.rows[pair.first].in_sum && budget.rows[pair.second].in_sum;
+    };
+    for (const RowCorrelation& pair : budget.correlations) {
+        if (is_correlated(pair)) {
+            const std::size_t joined = group[pair.first], other = group[pair.second];
+            std::replace(group.begin(), group.end(), other, joined);
         }
     }
-    return denominator > 0.0 ? 1.0 / denominator : std::numeric_limits<double>::infinity();
+    std::vector<double> variance(group.size(), 0.0), nu(group.size(), std::numeric_limits<double>::infinity());
+    for (std::size_t i = 0; i < group.size(); ++i) {
+        const double part = contribution_of(budget.rows[i]) / u_c;
+        variance[group[i]] += part * part;
+        if (has_degrees_of_freedom(budget.rows[i]) && part > 0.0) {
+            nu[group[i]] = std::min(nu[group[i]], budget.rows[i].used_nu);
+        }
+    }
+    for (const RowCorrelation& pair : budget.correlations) {
+        if (is_correlated(pair)) {
+            const AuditedRow &a = budget.rows[pair.first], &b = budget.rows[pair.second];
+            variance[group[pair.first]] +=
+                2.0 * pair.r * (a.used_sensitivity * a.used_u / u_c) * (b.used_sensitivity * b.used_u / u_c);
+        }
+    }
+    double sum = 0.0;
+    for (std::size_t i = 0; i < group.size(); ++i) {
+        sum += variance[i] * variance[i] / nu[i];
+    }
+    return sum;
+}
+
+double effective_degrees_of_freedom(const AuditedBudget& budget, CorrelatedRows correlated, double u_c) {
+    const double beyond = budget.fourth_powers_beyond_rows / (u_c * u_c) / (u_c * u_c);
+    double of_rows = fourth_powers_of_rows(budget, u_c);
+    if (!budget.correlations.empty() && correlated != CorrelatedRows::independent) {
+        const double of_groups = fourth_powers_of_groups(budget, u_c);
+        of_rows = correlated == CorrelatedRows::one_contribution ? of_groups : std::min(of_rows, of_groups);
+    }
+    const double denominator = beyond + of_rows;
+    return denominator > 0.0 ? budget.nu_eff_over_rows / denominator : std::numeric_limits<double>::infinity();
 }
 
 double truncated(double nu) {
@@ -285,7 +336,8 @@ BudgetOutcome evaluate(const AuditedBudget& budget, const CoverageRule& coverage
     const double u_of_rows = std::sqrt(variance);
     outcome.u_c = u_of_rows * budget.u_c_over_rows;
     // From the rows: what a claimed u_c has beyond them has no degrees of freedom that anybody stated.
-    outcome.nu_eff = effective_degrees_of_freedom(budget, of_tangent > 0.0 ? std::sqrt(of_tangent) : u_of_rows);
+    outcome.nu_eff =
+        effective_degrees_of_freedom(budget, coverage.correlated, of_tangent > 0.0 ? std::sqrt(of_tangent) : u_of_rows);
     outcome.k = coverage_factor_of(budget, coverage, u_of_rows, outcome.nu_eff) * budget.k_over_rows;
     outcome.U = outcome.k * outcome.u_c * budget.U_over_k_u_c;
     if (budget.floor_applied && budget.capability && *budget.capability > outcome.U) {
@@ -359,7 +411,20 @@ OutcomeIntervals outcome_intervals(const AuditedBudget& budget, const CoverageRu
     // The smallest u_c over the largest terms, and the other way round: an outer bound, for both do not occur together.
     low = std::max(0.0, low);
     high = std::max(0.0, high);
-    intervals.nu_eff = {most > 0.0 ? low * low / most : infinite, least > 0.0 ? high * high / least : infinite};
+    const double of_evaluation = budget.nu_eff_over_rows;
+    intervals.nu_eff = {most > 0.0 ? of_evaluation * low * low / most : infinite,
+                        least > 0.0 ? of_evaluation * high * high / least : infinite};
+    const double of_tangent = combined_variance(budget) + budget.correlation_variance;
+    if (!budget.correlations.empty() && of_tangent > 0.0) {
+        // Rows that correlate are one contribution, or were taken for independent ones: as wide by their digits.
+        const auto nu_eff = [&](CorrelatedRows correlated) {
+            return effective_degrees_of_freedom(budget, correlated, std::sqrt(of_tangent));
+        };
+        const double independent = nu_eff(CorrelatedRows::independent),
+                     as_one = nu_eff(CorrelatedRows::one_contribution);
+        const double ratio = std::isfinite(as_one) && std::isfinite(independent) ? as_one / independent : 1.0;
+        intervals.nu_eff = {std::min(1.0, ratio) * intervals.nu_eff.low, std::max(1.0, ratio) * intervals.nu_eff.high};
+    }
     if (coverage.kind == CoverageRule::Kind::fixed) {
         intervals.k = {coverage.k, coverage.k};
     } else if (coverage.kind == CoverageRule::Kind::convolution || coverage.chosen_anew) {

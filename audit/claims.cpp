@@ -43,12 +43,18 @@ std::vector<CoverageRule> student_rules(const AuditedBudget& budget) {
         probabilities = {p, 0.9545, 0.95};
     }
     std::vector<CoverageRule> rules;
-    for (const double probability : probabilities) {
-        for (const bool truncate : {false, true}) {
-            rules.push_back({.kind = CoverageRule::Kind::student_t,
-                             .k = budget.coverage.k,
-                             .probability = probability,
-                             .truncate = truncate});
+    for (const CorrelatedRows correlated : {CorrelatedRows::one_contribution, CorrelatedRows::independent}) {
+        for (const double probability : probabilities) {
+            for (const bool truncate : {false, true}) {
+                rules.push_back({.kind = CoverageRule::Kind::student_t,
+                                 .k = budget.coverage.k,
+                                 .probability = probability,
+                                 .truncate = truncate,
+                                 .correlated = correlated});
+            }
+        }
+        if (budget.correlations.empty()) {
+            break;  // rows are independent whatever a rule takes them for
         }
     }
     return rules;

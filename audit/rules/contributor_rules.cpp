@@ -32,11 +32,24 @@ struct RowWithName {
     Presence presence;  ///< of what it stands for
     NamedRow name;
 };
+
+/// Readings that are all equal: they were taken, and their scatter is below the step of the display, which is the contribution
+/// then (JCGM 100:2008, F.2.2.1) and stands in the budget.
+bool are_equal_readings(const AuditedBudget& budget, const AuditedRow& row) {
+    const auto is_resolution = [](const AuditedRow& other) {
+        return other.used_u > 0.0 &&
+               (other.origin == Origin::resolution || other.contributor == Contributor::item_resolution);
+    };
+    return row.type_a.value_or(false) && std::max(row.readings.size(), row.n.value_or(0)) >= 2 && row.used_u == 0.0 &&
+           std::any_of(budget.rows.begin(), budget.rows.end(), is_resolution);
+}
+
 std::vector<RowWithName> named_rows(const AuditedBudget& budget) {
     std::vector<RowWithName> rows;
     for (const AuditedRow& row : budget.rows) {
+        const bool has_number = row.used_u > 0.0 || are_equal_readings(budget, row);
         rows.push_back(
-            {.presence = row.used_u > 0.0 ? Presence::with_number : Presence::without_number, .name = NamedRow(row)});
+            {.presence = has_number ? Presence::with_number : Presence::without_number, .name = NamedRow(row)});
     }
     return rows;
 }

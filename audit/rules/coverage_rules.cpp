@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -599,20 +600,29 @@ void wider_than_possible(const AuditSubject& subject, FindingCollector& findings
 
 /// K06
 void one_term(const AuditSubject& subject, FindingCollector& findings) {
-    constexpr double k_share = 0.95;
+    constexpr double k_share = 0.95, k_beyond = 0.05;
     for_each_outcome(subject, [&](std::size_t b, const AuditedBudget& budget, const BudgetOutcome& outcome) {
+        // With correlated rows the variance is no sum over rows, and no row has a share of its own; nor has it where the
+        // model leaves its tangent, and the variance is that of trials.
+        const bool are_correlated =
+            !budget.correlations.empty() ||
+            std::any_of(budget.inputs_with_correlation.begin(), budget.inputs_with_correlation.end(),
+                        [](const std::set<std::string>& inputs) { return inputs.size() > 1; });
+        if (are_correlated || std::abs(budget.variance_beyond_tangent) > k_beyond * outcome.u_c * outcome.u_c) {
+            return;
+        }
         for (std::size_t r = 0; r < budget.rows.size() && budget.rows.size() > 1; ++r) {
             const AuditedRow& row = budget.rows[r];
             // Of what the rows add up to: a claim beyond them has no shares.
             const double part =
                 row.in_sum ? row.used_sensitivity * row.used_u * budget.u_c_over_rows / outcome.u_c : 0.0;
-            // With correlated rows the variance is no sum over rows, and no row has a share of its own.
-            if (part * part <= k_share || !budget.correlations.empty()) {
+            // More than the whole is a row whose correlations nobody states.
+            if (part * part <= k_share || part * part > 1.0 + k_beyond) {
                 continue;
             }
-            AuditFinding finding = finding_at(
-                {.budget = b, .row = r, .of = budget, .is = row}, "",
-                say("this row is {share:number} % of the variance", text::significant(100.0 * part * part, 3)));
+            AuditFinding finding = finding_at({.budget = b, .row = r, .of = budget, .is = row}, "",
+                                              say("this row is {share:number} % of the variance",
+                                                  text::significant(std::min(100.0, 100.0 * part * part), 3)));
             finding.evidence = {equals("|c| u", in_words(std::abs(row.used_sensitivity) * row.used_u, budget.unit)),
                                 equals("u_c", in_words(outcome.u_c, budget.unit))};
             findings.add(std::move(finding));

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -522,9 +523,15 @@ struct SharedSource {
     std::size_t budget = 0, first = 0, second = 0;
 };
 bool have_correlation(const AuditedBudget& budget, std::size_t a, std::size_t b) {
-    return std::any_of(budget.correlations.begin(), budget.correlations.end(), [a, b](const RowCorrelation& pair) {
-        return (pair.first == a && pair.second == b) || (pair.first == b && pair.second == a);
-    });
+    const std::string &one = budget.rows[a].input, &other = budget.rows[b].input;
+    return std::any_of(budget.correlations.begin(), budget.correlations.end(),
+                       [a, b](const RowCorrelation& pair) {
+                           return (pair.first == a && pair.second == b) || (pair.first == b && pair.second == a);
+                       }) ||
+           (one != other && std::any_of(budget.inputs_with_correlation.begin(), budget.inputs_with_correlation.end(),
+                                        [&](const std::set<std::string>& inputs) {
+                                            return inputs.contains(one) && inputs.contains(other);
+                                        }));
 }
 /// What a row comes from: its source; in a table without such a column the whole comment, where it has words enough and
 /// a number to be that of one document or one history.
@@ -733,7 +740,9 @@ void degrees_of_freedom_of_correlated_rows(const AuditSubject& subject, FindingC
     for (std::size_t b = 0; b < subject.budgets.size(); ++b) {
         const AuditedBudget& budget = subject.budgets[b];
         const std::optional<BudgetOutcome> outcome = outcome_of(budget);
-        if (!outcome || budget.evaluated_here || budget.coverage.kind != CoverageRule::Kind::student_t ||
+        // A claimed k that is that of the correlated rows as one contribution is right.
+        const bool is_right = budget.claims.k && budget.coverage.correlated == CorrelatedRows::one_contribution;
+        if (!outcome || budget.evaluated_here || budget.coverage.kind != CoverageRule::Kind::student_t || is_right ||
             !std::isfinite(outcome->nu_eff)) {
             continue;
         }

@@ -61,7 +61,10 @@ void smaller_than_the_standard(const AuditSubject& subject, FindingCollector& fi
         }
         const double own = std::abs(at.is.used_sensitivity) * *at.is.origin_value / *at.is.certificate_k;
         constexpr double k_rounding = 1.02;
-        if (own <= k_rounding * *u_c) {
+        // Of a budget that was evaluated here the row is in the sum as it stands: what makes u_c smaller is the model, correlations
+        // that the job states, or trials where it is not linear.
+        const bool is_in_sum = at.of.evaluated_here && own <= k_rounding * contribution_of(at.is);
+        if (own <= k_rounding * *u_c || is_in_sum) {
             return;
         }
         AuditFinding finding =

@@ -130,7 +130,9 @@ void few_readings(const AuditSubject& subject, FindingCollector& findings) {
     constexpr std::size_t k_enough = 10;
     for_each_row(subject, [&findings](const RowAt& at) {
         const std::optional<std::size_t> n = readings_of(at.is);
-        if (!is_type_a(at.is) || !n || *n >= k_enough || at.is.pooled_s || at.is.group_sizes.size() > 1 ||
+        // Readings that are all equal give no scatter, however few they are.
+        const bool are_equal = n && *n >= 2 && at.is.used_u == 0.0;
+        if (!is_type_a(at.is) || !n || *n >= k_enough || at.is.pooled_s || at.is.group_sizes.size() > 1 || are_equal ||
             (has_bounds(at.is) && !std::isfinite(at.is.used_nu))) {
             return;
         }

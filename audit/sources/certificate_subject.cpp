@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "audit/budget_outcome.h"
 #include "audit/finding.h"
 #include "audit/sources/stated_rule.h"
 #include "audit/word_line.h"
@@ -198,6 +199,20 @@ bool take_rule(gum::DecisionRule rule, const std::optional<double>& guard_band, 
     return false;
 }
 
+/// Of the half-widths that a rule with U may take of an interval, the one that gives the stated verdict, else the first.
+void take_half_width_of_verdict(const std::vector<double>& half_widths, double u, AuditedBudget& budget) {
+    if (half_widths.empty() || !(u > 0.0) || !budget.rule || budget.claims.verdict.empty()) {
+        return;
+    }
+    for (const double half_width : half_widths) {
+        budget.coverage.k = half_width / u;
+        if (half_width > 0.0 && evaluate(budget).verdict == budget.claims.verdict) {
+            return;
+        }
+    }
+    budget.coverage.k = half_widths.front() / u;
+}
+
 void Results::state_conformity(const ImportedQuantity& quantity, const LimitsBeside& limits, AuditedBudget& budget) {
     if (gum::limits_problem(limits.tolerance).empty()) {
         budget.limits = limits.tolerance;
@@ -268,16 +283,22 @@ AuditedBudget Results::budget_of(std::size_t position) {
     double u = claims.u_c ? claims.u_c->value : claims.U ? claims.U->value / budget.coverage.k : 0.0;
     const std::optional<StatedNumber> low = number_stated(q.low, budget.place),
                                       high = number_stated(q.high, budget.place);
+    std::vector<double> half_widths;  ///< that rules with U may take of an interval
     if (q.kind == "coverage_interval" && low && high) {
-        const double half = 0.5 * (high->value - low->value);
-        u = claims.u_c ? u : half / normal;
-        budget.coverage.k = u > 0.0 ? half / u : normal;
+        half_widths = {0.5 * (high->value - low->value)};
+        if (budget
+                .value) {  // the larger distance of an end from the value: neither end is nearer to a limit than U says
+            half_widths.insert(half_widths.begin(), std::max(*budget.value - low->value, high->value - *budget.value));
+        }
+        u = claims.u_c ? u : half_widths.back() / normal;
+        budget.coverage.k = u > 0.0 ? half_widths.front() / u : normal;
         claims.coverage_probability.reset();  // no k belongs to the p of an interval
     }
     claims.nu_eff = degrees_of_freedom_of(q);
     budget.correlation_variance = u * u;
     budget.digits = claims.U ? digits_of(*claims.U) : 2;
     state_conformity(q, limits_of(position), budget);
+    take_half_width_of_verdict(half_widths, u, budget);
     return budget;
 }
 

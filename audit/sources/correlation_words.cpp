@@ -115,6 +115,10 @@ std::vector<std::pair<std::string, std::string>> pairs_in(std::string_view name)
 
 }  // namespace
 
+std::optional<double> stated_correlation(std::string_view text) {
+    return assigned_r(text);
+}
+
 std::optional<CorrelationWords> correlation_words(std::string_view name) {
     constexpr std::size_t k_longest = 200;
     name = without_blanks(name);

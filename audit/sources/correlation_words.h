@@ -17,6 +17,8 @@ struct CorrelationWords {
     /// What may be the symbols of the two rows, likeliest first: of "r(T1; T2)", "T1 and T2", "T1/T2".
     std::vector<std::pair<std::string, std::string>> pairs = {};
 };
+/// A coefficient that a text states by its symbol: 0.9 of "r = 0.9" or "calibrated together, ρ(A; B) = 0.9".
+[[nodiscard]] std::optional<double> stated_correlation(std::string_view text);
 /// Nothing where the name says nothing of a correlation.
 [[nodiscard]] std::optional<CorrelationWords> correlation_words(std::string_view name);
 

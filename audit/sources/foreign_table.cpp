@@ -664,11 +664,16 @@ private:
         const bool has_amount =
             numbers.contains(Column::u) || numbers.contains(Column::contribution) || numbers.contains(Column::stated);
         std::optional<double> r = words && words->r ? words->r : correlation_in(row);
+        // An uncertainty is not negative: without u and coefficient it is a term of the sum, with the sign of r.
+        const auto term = numbers.find(Column::contribution);
+        const bool is_term = words && !words->is_coefficient && term != numbers.end() && !r &&
+                             sheet_.number_with_unit(*term->second).value_or(NumberWithUnit{}).number.value < 0.0 &&
+                             !numbers.contains(Column::u) && !numbers.contains(Column::stated);
         if (!words) {  // "r" alone may be a radius or a resistance
             const bool is_constant = has_amount || numbers.contains(Column::estimate);
             r = is_constant ? std::nullopt : r;
         }
-        if (words && words->is_covariance) {
+        if (words && (words->is_covariance || is_term)) {
             const bool has_number = std::any_of(row.begin() + 1, row.end(), [this](const Cell* cell) {
                 return sheet_.number_with_unit(*cell).has_value();
             });
@@ -685,6 +690,9 @@ private:
     [[nodiscard]] std::optional<double> correlation_in(const SheetView::Row& row) const {
         const auto unit = heads_->columns.find(Column::unit);
         for (auto cell = row.begin() + 1; cell != row.end(); ++cell) {
+            if (const std::optional<double> r = stated_correlation(sheet_.words(**cell))) {
+                return r;
+            }
             const std::optional<NumberWithUnit> r = sheet_.number_with_unit(**cell);
             if (!r || (unit != heads_->columns.end() && unit->second == (*cell)->address.column)) {
                 continue;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <initializer_list>
+#include <iterator>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -50,6 +51,43 @@ bool is_count(std::string_view text) {
     return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
 }
 
+std::set<std::string> texts_of(const json& array) {
+    std::set<std::string> texts;
+    for (const json& text : array.is_array() ? array : json::array()) {
+        if (text.is_string()) {
+            texts.insert(text.get<std::string>());
+        }
+    }
+    return texts;
+}
+
+/// The inputs of each statement of a job on correlations: pairs with their coefficients, a covariance matrix, observations that were
+/// taken together, and samples of one file.
+std::vector<std::set<std::string>> inputs_together(const json& job) {
+    std::vector<std::set<std::string>> together;
+    for (const char* const key : {"correlations", "simultaneous"}) {
+        if (const auto groups = job.find(key); groups != job.end() && groups->is_array()) {
+            std::transform(groups->begin(), groups->end(), std::back_inserter(together), texts_of);
+        }
+    }
+    if (const auto covariance = job.find("covariance"); covariance != job.end() && covariance->is_object()) {
+        together.push_back(texts_of(covariance->value("inputs", json::array())));
+    }
+    std::map<std::string, std::set<std::string>> of_file;
+    const json inputs = job.value("inputs", json::object());
+    for (const auto& [name, statement] : inputs.items()) {
+        const json samples = statement.is_object() ? statement.value("samples", json()) : json();
+        const json file = samples.is_object() ? samples.value("file", json()) : samples;
+        if (file.is_string()) {
+            of_file[file.get<std::string>()].insert(name);
+        }
+    }
+    for (auto& [file, names] : of_file) {
+        together.push_back(std::move(names));
+    }
+    return together;
+}
+
 }  // namespace
 
 JobStatements::JobStatements(const reports::EvaluationRecord& record) {
@@ -61,6 +99,7 @@ JobStatements::JobStatements(const reports::EvaluationRecord& record) {
     if (const auto inputs = job.find("inputs"); inputs != job.end() && inputs->is_object()) {
         inputs_ = *inputs;
     }
+    together_ = inputs_together(job);
     read_points(job, record);
     for (const reports::SectionSummary& section : record.sections) {  // in the order in which their points are numbered
         const auto sections = job.find("sections");

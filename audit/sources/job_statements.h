@@ -3,7 +3,9 @@
 #include <cstddef>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
+#include <vector>
 
 #include "reports/record/evaluation_record.h"
 
@@ -26,10 +28,14 @@ public:
     /// The statement of an input that the record shows without parts: of its only component where it is stated as one, null
     /// where it is stated as a sum of several.
     [[nodiscard]] nlohmann::json of_whole(const std::string& input, const std::string& point) const;
+    /// Inputs of which the job says how any two of a set correlate: by a coefficient, 0 too, a covariance matrix, observations that
+    /// were taken together, or samples of one file.
+    [[nodiscard]] const std::vector<std::set<std::string>>& inputs_with_correlation() const { return together_; }
 
 private:
     nlohmann::json inputs_;                           ///< of the job
     std::map<std::string, nlohmann::json> by_point_;  ///< inputs by name, each an object
+    std::vector<std::set<std::string>> together_;     ///< inputs of which the job says how any two correlate
 
     std::size_t first_ = 0;  ///< points of the sections before
 

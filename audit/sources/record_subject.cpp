@@ -331,6 +331,41 @@ double variance_of_rows(const AuditedBudget& budget) {
     return variance;
 }
 
+/// Σ (c u)⁴/ν of the rows that have degrees of freedom.
+double fourth_powers_of_rows(const AuditedBudget& budget) {
+    double sum = 0.0;
+    for (const AuditedRow& row : budget.rows) {
+        const double part = contribution_of(row);
+        sum += std::isfinite(row.used_nu) && row.used_nu > 0.0 ? part * part * part * part / row.used_nu : 0.0;
+    }
+    return sum;
+}
+
+/// ν_eff of the evaluation, where the formula of Welch and Satterthwaite gives another one for the rows: it takes them for
+/// independent, and the evaluation takes those that correlate for one contribution.
+/// \param u  of the law of propagation
+void state_degrees_of_freedom(AuditedBudget& budget, double u, const std::optional<double>& nu_eff) {
+    constexpr double k_arithmetic = 1e-6;
+    const double u4 = u * u * u * u, of_rows = fourth_powers_of_rows(budget);
+    if (!nu_eff && of_rows > 0.0) {
+        budget.nu_eff_over_rows = std::numeric_limits<double>::infinity();
+    } else if (nu_eff && of_rows > 0.0 && std::abs(*nu_eff * of_rows / u4 - 1.0) > k_arithmetic) {
+        budget.nu_eff_over_rows = *nu_eff * of_rows / u4;
+    } else if (nu_eff && *nu_eff > 0.0 && of_rows == 0.0) {
+        budget.fourth_powers_beyond_rows = u4 / *nu_eff;
+    }
+}
+
+/// U of a result, or the larger distance of an end of its interval from the value: what rules with U take where the interval
+/// alone is stated, on the certificate too.
+std::optional<double> half_width_of(const reports::ReportedResult& reported) {
+    if (reported.U || !reported.interval) {
+        return reported.U;
+    }
+    const auto [low, high] = *reported.interval;
+    return std::max(reported.value - low, high - reported.value);
+}
+
 /// Whether the evaluation cut ν_eff to the next lower whole number.
 bool cuts_degrees_of_freedom(const reports::EvaluationRecord& record) {
     const json options = json::parse(record.options_json, nullptr, false);
@@ -346,6 +381,7 @@ AuditedBudget budget_of(const reports::EvaluationRecord& record, const reports::
     budget.place = "/results/" + result.name;
     budget.evaluated_here = true;
     add_rows(budget, result.budget, budget.place + "/budget", &record, &job, result.point);
+    budget.inputs_with_correlation = job.inputs_with_correlation();
     const std::string& quantity = result.quantity.empty() ? result.name : result.quantity;
     for (const std::string& equation : reports::equations_of(record, quantity)) {
         budget.equation += (budget.equation.empty() ? "" : "; ") + equation;
@@ -378,9 +414,16 @@ AuditedBudget budget_of(const reports::EvaluationRecord& record, const reports::
     budget.correlation_variance = beyond(result.u * result.u, variance_of_rows(budget));
     budget.variance_beyond_tangent = beyond(u * u, result.u * result.u);
     budget.rests_on_trials = by_trials;
+    if (budget.correlation_variance != 0.0) {
+        state_degrees_of_freedom(budget, result.u, result.nu_eff);
+    }
     const std::optional<double> k = by_trials ? reported.k : result.k;
     state_coverage(budget, by_trials ? "monte_carlo" : result.coverage, k, reported.coverage_probability,
                    cuts_degrees_of_freedom(record));
+    if (const std::optional<double> half_width = half_width_of(reported); by_trials && !k && half_width && u > 0.0) {
+        budget.coverage = {
+            .kind = CoverageRule::Kind::fixed, .k = *half_width / u, .probability = reported.coverage_probability};
+    }
     const bool is_convolved = result.coverage == "convolution";
     const bool is_of_rows = budget.coverage.kind != CoverageRule::Kind::fixed && budget.correlations.empty() &&
                             std::none_of(budget.rows.begin(), budget.rows.end(), [](const AuditedRow& row) {
@@ -541,16 +584,6 @@ std::size_t point_with_largest_score(const reports::Comparison& comparison) {
         comparison.points.begin());
 }
 
-/// Σ (c u)⁴/ν of the rows that have degrees of freedom.
-double fourth_powers_of_rows(const AuditedBudget& budget) {
-    double sum = 0.0;
-    for (const AuditedRow& row : budget.rows) {
-        const double part = contribution_of(row);
-        sum += std::isfinite(row.used_nu) && row.used_nu > 0.0 ? part * part * part * part / row.used_nu : 0.0;
-    }
-    return sum;
-}
-
 /// The budget of one side of a comparison, where the record holds it: what correcting it does to E_n is seen at one point.
 /// \param side  with its rows, name and place
 /// \param at    position of the point
@@ -602,6 +635,9 @@ AuditedBudget side_of(const reports::Comparison& comparison, const std::vector<r
     side.place = place;
     side.evaluated_here = true;
     add_rows(side, rows, place, nullptr, job, "");
+    if (job != nullptr) {
+        side.inputs_with_correlation = job->inputs_with_correlation();
+    }
     return side;
 }
 

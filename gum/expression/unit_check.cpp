@@ -34,6 +34,17 @@ std::string angle_cure(const Dimension& a, const Dimension& b) {
     return {};
 }
 
+/// What to do where a level in dB and a number meet; empty where they do not.
+/// \param quotient  of the dimensions of both
+std::string level_cure(const Dimension& quotient) {
+    const std::string unit = quotient.text();
+    return unit == "dB" || unit == "dB-1"
+               ? "A level in dB has a unit of its own. Add the input \"dB_1\": {\"value\": 1, \"unit\": \"dB\", "
+                 "\"constant\": true}, and "
+                 "write a number times it (\"20*log10(v/v_0)*dB_1\") or a level divided by it (\"10^(L/(20*dB_1))\")."
+               : "";
+}
+
 /// True where turns or cycles are what a quantity counts, so that 1 of it is 2 pi rad: rpm and turn, or a frequency.
 bool counts_turns(const QuantityKind& a, const QuantityKind& b) {
     const auto is_turns = [](const QuantityKind& kind) {
@@ -308,6 +319,9 @@ private:
         if (cure.empty()) {
             cure = angle_cure(a.dimension, b.dimension);
         }
+        if (cure.empty()) {
+            cure = level_cure(a.dimension / b.dimension);
+        }
         refuse(node, "GC-MODEL-0030",
                both + ": " + is_in(node.left) + " (dimension " + a.dimension.text() + "), " + is_in(node.right) +
                    " (dimension " + b.dimension.text() + ")",
@@ -320,10 +334,13 @@ private:
     QuantityKind of_power(const SyntaxNode& node, const QuantityKind& base, const QuantityKind& exponent) {
         QuantityKind kind;
         if (!is_number(exponent)) {
+            std::string cure = level_cure(exponent.dimension);
+            if (cure.empty()) {
+                cure = exponent.dimension == Dimension::angle() ? "Divide the angle by rad."
+                                                                : "Divide by a quantity of the same unit.";
+            }
             return refuse(node, "GC-MODEL-0033", "the exponent " + is_in(node.right),
-                          "an exponent is a number (unit 1)",
-                          exponent.dimension == Dimension::angle() ? "Divide the angle by rad."
-                                                                   : "Divide by a quantity of the same unit.");
+                          "an exponent is a number (unit 1)", std::move(cure));
         }
         // A number to any power is a number; only a base with a unit needs to know which unit results.
         if (is_number(base)) {
@@ -430,7 +447,9 @@ Unit output_unit(const std::string& name, const QuantityKind& kind, const std::o
         }
         if (!(declared->dimension() == kind.dimension)) {
             std::string cure = angle_cure(kind.dimension, declared->dimension());
-            if (!cure.empty()) {
+            if (cure.empty()) {
+                cure = level_cure(kind.dimension / declared->dimension());
+            } else {
                 const bool has_angle_more = kind.dimension / declared->dimension() == Dimension::angle();
                 cure = std::string("They differ by the unit of angle: ") +
                        (has_angle_more ? counts_turns(kind, QuantityKind::of(*declared))

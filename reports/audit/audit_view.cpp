@@ -327,6 +327,9 @@ AuditedResultView result_view(const audit::AuditedResult& result, const AuditedB
             view.change.direction = "unchanged";  // nothing was corrected: what is stated stands
         }
     }
+    if (budget.rests_on_trials && !budget.claims.U && view.change.direction == "unchanged") {
+        view.change.direction = "interval";
+    }
     if (!budget.claims.broken.U.empty()) {
         view.change.percent = "–";
         view.change.direction = "not_stated";

@@ -60,7 +60,7 @@ struct Change {
     double relative = 0.0;  ///< of U
     std::string percent;    ///< "+21.4", "0.0"
     std::string
-        direction;  ///< "understated", "overstated", "unchanged", "not_stated": how U stands before the correction
+        direction;  ///< "understated", "overstated", "unchanged", "not_stated", "interval": how U stands before the correction
     bool verdict_turns = false;   ///< another verdict
     bool En_crosses_one = false;  ///< |E_n| moves across 1
     [[nodiscard]] bool decision_turns() const { return verdict_turns || En_crosses_one; }

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstddef>
 #include <numbers>
+#include <utility>
 
 #include "gum/quantity/diagnostic.h"
 #include "tests/support/audited_budgets.h"
@@ -59,6 +61,45 @@ TEST(BudgetOutcome, AddsCorrelationsAndLeavesRowsOut) {
     EXPECT_DOUBLE_EQ(evaluate(budget).u_c, 1.0);
     budget.correlations = {{.first = 0, .second = 1, .r = -1.0}};
     EXPECT_DOUBLE_EQ(evaluate(budget).u_c, 7.0);
+}
+
+/// Two rows that correlate and their difference: what remains of them is one contribution with the degrees of freedom of both.
+TEST(BudgetOutcome, TakesCorrelatedRowsForOneContribution) {
+    AuditedBudget budget =
+        budget_of({row("a", 0.02, 1.0, 50.0), row("b", 0.02, -1.0, 50.0), row("c", 0.01, 1.0, 9.0), row("d", 0.003)});
+    budget.correlations = {{.first = 0, .second = 1, .r = 0.9}};
+    const double difference = 8e-5, u2 = difference + 1e-4 + 9e-6;
+    const double expected = u2 * u2 / (difference * difference / 50.0 + 1e-8 / 9.0);
+    EXPECT_NEAR(evaluate(budget).nu_eff, expected, 1e-9);
+    EXPECT_GE(outcome_intervals(budget).nu_eff.high, expected * (1.0 - 1e-9));
+    CoverageRule independent = budget.coverage;
+    independent.correlated = CorrelatedRows::independent;
+    EXPECT_NEAR(evaluate(budget, independent).nu_eff, u2 * u2 / (2.0 * 1.6e-7 / 50.0 + 1e-8 / 9.0), 1e-9);
+    // The order of pairs and rows has no part in it.
+    budget.correlations = {{.first = 2, .second = 0, .r = 0.1}, {.first = 1, .second = 0, .r = 0.9}};
+    const double first = evaluate(budget).nu_eff;
+    std::swap(budget.correlations[0], budget.correlations[1]);
+    EXPECT_NEAR(evaluate(budget).nu_eff, first, 1e-9);
+    std::swap(budget.rows[0], budget.rows[2]);
+    for (RowCorrelation& pair : budget.correlations) {
+        for (std::size_t* const at : {&pair.first, &pair.second}) {
+            *at = *at == 0 ? 2 : *at == 2 ? 0 : *at;
+        }
+    }
+    EXPECT_NEAR(evaluate(budget).nu_eff, first, 1e-9);
+    // One source in two rows that add: four degrees of freedom, and not the 18 of independent rows.
+    AuditedBudget sum = budget_of({row("a", 1.0, 1.0, 4.0), row("b", 1.0, 1.0, 4.0)});
+    sum.correlations = {{.first = 0, .second = 1, .r = 0.5}};
+    CoverageRule one = sum.coverage;
+    one.correlated = CorrelatedRows::one_contribution;
+    EXPECT_NEAR(evaluate(sum, one).nu_eff, 4.0, 1e-9);
+    EXPECT_NEAR(evaluate(sum).nu_eff, 18.0, 1e-9) << "neither is a reason to find fault";
+    EXPECT_LE(outcome_intervals(sum).nu_eff.low, 4.0 * (1.0 + 1e-9));
+    EXPECT_GE(outcome_intervals(sum).nu_eff.high, 18.0 * (1.0 - 1e-9));
+    // A row that hardly correlates does not make the others its own.
+    AuditedBudget weak = budget_of({row("a", 1.0), row("b", 0.01, 1.0, 2.0)});
+    weak.correlations = {{.first = 0, .second = 1, .r = 0.01}};
+    EXPECT_GT(evaluate(weak).nu_eff, 1e6);
 }
 
 TEST(BudgetOutcome, NeverStatesLessThanTheCapability) {

@@ -37,6 +37,14 @@ TEST(ContributorRules, B01_asks_for_the_minimum_of_every_method) {
     budget = sound_budget();
     budget.rows[3].used_u = 0.0;
     EXPECT_EQ(contributor_finding("B01", budget), "named without a number: repeatability");
+    // Equal readings were taken, and the step of the display is their contribution (JCGM 100:2008, F.2.2.1).
+    budget.rows[3].type_a = true;
+    budget.rows[3].readings = {10.01};
+    EXPECT_EQ(contributor_finding("B01", budget), "named without a number: repeatability");
+    budget.rows[3].readings = {10.01, 10.01, 10.01};
+    EXPECT_EQ(contributor_finding("B01", budget), "");
+    drop(budget, Contributor::item_resolution);
+    EXPECT_THAT(contributor_finding("B01", budget), HasSubstr("named without a number: repeatability"));
 }
 
 TEST(ContributorRules, B01_asks_for_the_checklist_of_the_method) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "audit/claims.h"
@@ -167,6 +168,21 @@ TEST(CoverageRules, K06PointsToTheOneRow) {
     AuditedBudget claimed = budget_of({row("a", 1.0), row("b", 0.3)});
     claimed.u_c_over_rows = 0.9;
     EXPECT_TRUE(findings_of("K06", subject_of(claimed)).empty());
+    // No row has a share where correlations that are not listed, or trials, make up the variance.
+    for (const double beyond : {-0.8, -0.2, 0.3}) {
+        AuditedBudget evaluated = budget_of({row("a", 1.0), row("b", 1.0)});
+        evaluated.evaluated_here = true;
+        evaluated.correlation_variance = beyond;
+        evaluated.inputs_with_correlation = {{"a", "b"}};
+        EXPECT_TRUE(findings_of("K06", subject_of(evaluated)).empty()) << beyond;
+        evaluated.rows[1].used_u = 0.1;
+        EXPECT_TRUE(findings_of("K06", subject_of(evaluated)).empty()) << beyond;
+        evaluated.inputs_with_correlation = {{"b"}};
+        std::swap(evaluated.correlation_variance, evaluated.variance_beyond_tangent);
+        EXPECT_TRUE(findings_of("K06", subject_of(evaluated)).empty()) << beyond;
+        evaluated.variance_beyond_tangent = -0.01;  // the scatter of trials
+        EXPECT_EQ(findings_of("K06", subject_of(evaluated)).size(), 1U);
+    }
 }
 
 TEST(CoverageRules, K07SeesUnequalTails) {

@@ -53,6 +53,14 @@ TEST(TraceabilityRules, T07_compares_with_the_standard) {
     AuditedBudget correlated = budget;
     correlated.correlations = {{.first = 0, .second = 1, .r = -0.5}};
     EXPECT_EQ(found_by(traceability_rules(), "T07", subject_with({correlated})), "");
+    // A correlation that the job of an evaluated budget states, or trials, make u_c smaller than the row that is in the sum.
+    AuditedBudget evaluated = budget;
+    evaluated.evaluated_here = true;
+    EXPECT_NE(found_by(traceability_rules(), "T07", subject_with({evaluated})), "")
+        << "the row has less than the certificate";
+    evaluated.rows[0].used_u = 0.4;
+    evaluated.correlation_variance = -0.1;
+    EXPECT_EQ(found_by(traceability_rules(), "T07", subject_with({evaluated})), "");
 }
 
 TEST(TraceabilityRules, T08_finds_the_older_of_two_certificates) {

@@ -87,6 +87,8 @@ TEST(TypeARules, U02IsMinorWhereNuAndKAccountForFewReadings) {
     ten.pooled_s.reset();
     ten.readings = std::vector<double>(10, 1.0);
     EXPECT_TRUE(findings_of("U02", subject_of(ten)).empty());
+    // Equal readings have no scatter that few of them could tell wrongly.
+    EXPECT_TRUE(findings_of("U02", subject_of(row_of_readings("repeatability", {1.0, 1.0, 1.0}, 0.0))).empty());
 }
 
 /// Readings taken together: ν_eff of correlated rows does not follow from the formula for independent ones.

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "audit/audit.h"
+#include "audit/budget_outcome.h"
 #include "audit/rules/registry.h"
 #include "reports/dcc/dcc_element.h"
 
@@ -169,8 +170,29 @@ TEST(SubjectOfCertificate, AsksForNoFactorOfAnInterval) {
         "<si:coverageProbability>0.95</si:coverageProbability></si:coverageIntervalMU>"
         "</si:measurementUncertaintyUnivariate>"));
     ASSERT_EQ(subject.budgets.size(), 1U);
-    EXPECT_NEAR(subject.budgets.front().coverage.k, 1.9, 1e-12);
+    EXPECT_NEAR(subject.budgets.front().coverage.k, 2.8, 1e-12) << "10.28 is farther from 10.00 than 9.90";
     EXPECT_EQ(rules_found(subject), std::vector<std::string>{});
+}
+
+/// A rule with U takes of an interval the larger distance of an end from the value, or half of its width: a verdict is accused where
+/// neither gives it.
+TEST(SubjectOfCertificate, DecidesByAnIntervalAsTheCertificateDid) {
+    const std::string interval =
+        "<si:measurementUncertaintyUnivariate><si:coverageIntervalMU><si:valueStandardMU>0.10</si:valueStandardMU>"
+        "<si:intervalMin>9.90</si:intervalMin><si:intervalMax>10.28</si:intervalMax>"
+        "<si:coverageProbability>0.95</si:coverageProbability></si:coverageIntervalMU>"
+        "</si:measurementUncertaintyUnivariate>";
+    for (const double upper : {10.10, 10.18, 10.20, 10.27, 10.29, 10.40}) {
+        for (const std::string verdict : {"pass", "fail"}) {
+            const std::string meta = "<dcc:conformity>" + verdict + "</dcc:conformity><dcc:data>" +
+                                     limit("basic_toleranceLimitUpper", std::to_string(upper)) + "</dcc:data>";
+            const AuditSubject subject = subject_of_text(document(interval, meta, rule_statement("DR-03")));
+            const bool may_pass = upper > 10.19, may_fail = upper < 10.28;
+            const bool is_explained = verdict == "pass" ? may_pass : may_fail;
+            EXPECT_EQ(finds(subject, "D04"), !is_explained) << upper << " " << verdict;
+            EXPECT_EQ(evaluate(subject.budgets.at(0)).verdict == verdict, is_explained) << upper << " " << verdict;
+        }
+    }
 }
 
 TEST(SubjectOfCertificate, DecidesAgainByARuleThatIsNamed) {

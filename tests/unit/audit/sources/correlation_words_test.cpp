@@ -57,6 +57,52 @@ TEST(Correlations, AreReadWhereverTheirLineHasR) {
     EXPECT_EQ(row.subject.budgets[0].rows.size(), 4U);
 }
 
+/// A difference of two rows that correlate has as many degrees of freedom as both: k = 2 is no fixed k of few, whatever the formula
+/// of independent rows would say; and a claim by either way is explained.
+TEST(Correlations, LeaveTheDegreesOfFreedomOfOneContribution) {
+    const std::string rows =
+        "Quantity,Estimate,Unit,u,nu,Sensitivity,Contribution\nGauge A,0,um,0.02,50,1,0.02\nGauge "
+        "B,0,um,0.02,50,-1,-0.02\n"
+        "Indication,0,um,0.01,9,1,0.01\nResolution,0,um,0.003,inf,1,0.003\n\"r(A, B)\",0.9,,,,,\nu_c,,um,0.0137,,,\n";
+    const auto rules_of = [&](const std::string& claims) {
+        const AuditReport report = audit_of_correlated(rows + claims);
+        std::string rules;
+        for (const AuditFinding& finding : report.findings) {
+            const bool is_looked_at =
+                finding.rule == "K01" || finding.rule == "K02" || finding.rule == "K03" || finding.rule == "S12";
+            rules += is_looked_at ? finding.rule : "";
+        }
+        return report.results.size() == 1U ? rules : "none";
+    };
+    EXPECT_EQ(rules_of("k,,,2,,,\nU,,um,0.027,,,\n"), "");
+    EXPECT_EQ(rules_of("nu_eff,,,28,,,\nk,,,2.09,,,\nU,,um,0.029,,,\n"), "");
+    EXPECT_EQ(rules_of("nu_eff,,,28.8,,,\nk,,,2.09,,,\nU,,um,0.029,,,\n"), "");
+    EXPECT_EQ(rules_of("nu_eff,,,4.8,,,\nk,,,2.69,,,\nU,,um,0.037,,,\n"), "S12");
+}
+
+/// A coefficient in a cell is read with its symbol; a term with the sign of a correlation is none of the rows.
+TEST(Correlations, AreStatedByTheirSymbolInACell) {
+    EXPECT_EQ(stated_correlation("r = 0.9"), 0.9);
+    EXPECT_EQ(stated_correlation("ρ(A; B) = -0.25"), -0.25);
+    EXPECT_FALSE(stated_correlation("r = 12"));
+    EXPECT_FALSE(stated_correlation("error = 0.6"));
+    const std::string rows =
+        "Quantity,Estimate,Unit,u,Sensitivity,Contribution\nGauge A,0,um,0.02,1,0.02\nGauge B,0,um,0.02,-1,-0.02\n"
+        "Indication,0,um,0.01,1,0.01\n";
+    const std::string claims = "u_c,,um,0.0134,,\nk,,,2,,\nU,,um,0.027,,\n";
+    const AuditReport named = audit_of_correlated(rows + "\"Correlation r(A; B)\",r = 0.9,,,,\n" + claims);
+    ASSERT_EQ(named.results.size(), 1U);
+    EXPECT_NEAR(named.results[0].recomputed.u_c, std::sqrt(1.8e-4), 1e-9);
+    EXPECT_FALSE(has_critical(named));
+    EXPECT_FALSE(has_critical(audit_of_correlated(rows + "Correlation of A and B,r = 0.9,,,,\n" + claims)));
+    EXPECT_FALSE(has_critical(audit_of_correlated(rows + "Correlation of both gauges,r = 0.9,,,,\n" + claims)));
+    for (const char* const term : {"Correlation,,um,,,-0.0268\n", "Correlation term,,um,,,-0.00072\n"}) {
+        const AuditReport open = audit_of_correlated(rows + term + claims);
+        EXPECT_TRUE(open.results.empty()) << term;
+        EXPECT_FALSE(has_critical(open));
+    }
+}
+
 TEST(Correlations, AreNoQuantitiesWithAnArgument) {
     const std::string heads = "Quantity,Value,u / %,Contribution / %\n",
                       claims = "Combined standard uncertainty,,,0.23\nExpanded uncertainty (k = 2),,,0.46\n";

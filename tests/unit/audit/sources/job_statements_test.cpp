@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+#include <string>
+#include <vector>
+
 namespace gumcert::audit {
 namespace {
 
@@ -80,6 +84,21 @@ TEST(JobStatements, OfAResolutionBesideReadingsIsItsOwn) {
     EXPECT_EQ(job.of_part("x", "", part_named("readings")), json::parse(R"({"observations": [1, 2]})"));
     EXPECT_EQ(job.of_part("x", "", part_named("resolution")),
               json::parse(R"({"resolution": 0.1, "distribution": "uniform"})"));
+}
+
+TEST(JobStatements, SayWhichInputsCorrelate) {
+    reports::EvaluationRecord record;
+    record.job_json =
+        R"({"inputs": {"s": {"samples": "a.csv"}, "t": {"samples": {"file": "a.csv", "column": "t"}}, "w": {"samples": [1, 2]},
+        "v": {"samples": "b.csv"}}, "correlations": [["a", "b", 0.5], ["a", "c", 0]], "simultaneous": [["d", "e", "f"]],
+        "covariance": {"inputs": ["g", "h"], "matrix": [[1, 0], [0, 1]]}})";
+    using Names = std::set<std::string>;
+    const std::vector<Names> expected = {{"a", "b"}, {"a", "c"}, {"d", "e", "f"}, {"g", "h"}, {"s", "t"}, {"v"}};
+    EXPECT_EQ(JobStatements(record).inputs_with_correlation(), expected);
+    for (const char* const none : {"{}", "{\"correlations\": 3, \"covariance\": [], \"inputs\": 4}", "", "[]"}) {
+        record.job_json = none;
+        EXPECT_TRUE(JobStatements(record).inputs_with_correlation().empty()) << none;
+    }
 }
 
 TEST(JobStatements, OfATextThatIsNoJobAreNone) {

@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <optional>
 #include <random>
 #include <set>
 #include <string>
@@ -14,6 +16,8 @@
 #include "audit/audit.h"
 #include "audit/budget_outcome.h"
 #include "audit/rules/registry.h"
+#include "gum/conformity/decision_rule.h"
+#include "gum/coverage.h"
 
 namespace gumcert::audit {
 namespace {
@@ -122,6 +126,31 @@ TEST(SubjectOfRecord, TakesTheStatementsOfInputsFromTheJob) {
     EXPECT_EQ(b.place, "/results/y/budget/1");
 }
 
+/// A correlation that the job states, in whichever way, and 0 too, is none that is neglected (S10).
+TEST(SubjectOfRecord, KnowsTheCorrelationsThatTheJobStates) {
+    const auto finds = [](const std::string& statement) {
+        reports::EvaluationRecord record = two_rows();
+        record.job_json =
+            R"({"inputs": {"a": {"value": 0, "unit": "um", "U": 0.6, "k": 2, "source": "certificate K-17"},
+            "b": {"value": 1, "unit": "um", "U": 0.8, "k": 2, "source": "certificate K-17"}})" +
+            statement + "}";
+        for (reports::BudgetRow& row : record.results[0].budget) {
+            row.source = "certificate K-17";
+        }
+        const AuditReport report = audit(subject_of(record, "record.json"), all_rules());
+        return std::any_of(report.findings.begin(), report.findings.end(),
+                           [](const AuditFinding& finding) { return finding.rule == "S10"; });
+    };
+    EXPECT_TRUE(finds(""));
+    EXPECT_TRUE(finds(R"(, "correlations": [["a", "c", 0.5]])"));
+    for (const char* const statement :
+         {R"(, "correlations": [["b", "a", 0.5]])", R"(, "correlations": [["a", "b", 0]])",
+          R"(, "simultaneous": [["c", "a", "b"]])",
+          R"(, "covariance": {"inputs": ["a", "b"], "matrix": {"file": "v.csv"}})"}) {
+        EXPECT_FALSE(finds(statement)) << statement;
+    }
+}
+
 /// What a job says in words of a u that it states alone counts the same wherever it stands.
 TEST(SubjectOfRecord, ReadsTheWordsOfSourceAndNote) {
     for (const std::string words :
@@ -186,6 +215,58 @@ TEST(SubjectOfRecord, ClaimsTheNuThatIsStatedBesideTrials) {
         EXPECT_NEAR(audited.audited.U, 1.9 * u, 1e-9) << u;
         result.nu_eff = 482.0;
         EXPECT_EQ(audit(subject_of(record, "record.json"), all_rules()).results.at(0).claimed.nu_eff, 482.0);
+    }
+}
+
+/// Correlated inputs are one contribution of the evaluation: its ν_eff is not what the formula of Welch and Satterthwaite gives for
+/// the rows as independent ones, and the audit says the same number as the record.
+TEST(SubjectOfRecord, HasTheDegreesOfFreedomOfTheEvaluation) {
+    for (const double nu : {1.2, 4.0, 28.8, 900.0}) {
+        reports::EvaluationRecord record = two_rows();
+        reports::Result& result = record.results[0];
+        for (reports::BudgetRow& row : result.budget) {
+            row.nu.number = 4.0;
+        }
+        result.u = result.reported.u.emplace(0.2);  // r below 0
+        result.nu_eff = nu;
+        result.k = result.reported.k.emplace(gum::coverage_factor(0.9545, nu));
+        result.U = result.reported.U.emplace(0.2 * *result.k);
+        const AuditReport report = audit(subject_of(record, "record.json"), all_rules());
+        const AuditedResult& audited = report.results.at(0);
+        EXPECT_NEAR(audited.recomputed.nu_eff, nu, 1e-6 * nu);
+        EXPECT_NEAR(audited.allowed.nu_eff.low, nu, 1e-6 * nu);
+        EXPECT_NEAR(audited.recomputed.k, *result.k, 1e-9);
+        EXPECT_EQ(report.subject.budgets[0].coverage.kind, CoverageRule::Kind::student_t);
+    }
+    reports::EvaluationRecord cancelled = two_rows();  // what has degrees of freedom cancels
+    cancelled.results[0].budget[0].nu.number = 4.0;
+    cancelled.results[0].u = cancelled.results[0].reported.u.emplace(0.2);
+    EXPECT_TRUE(std::isinf(evaluate(subject_of(cancelled, "record.json").budgets[0]).nu_eff));
+}
+
+/// Where an interval is stated and no U, certificate and audit decide with one width: the larger distance of an end from the value.
+TEST(SubjectOfRecord, DecidesByTheIntervalThatIsStated) {
+    std::mt19937_64 drawn(5);
+    std::uniform_real_distribution<double> part(0.2, 3.0);
+    for (int trial = 0; trial < 30; ++trial) {
+        reports::EvaluationRecord record = two_rows();
+        reports::Result& result = record.results[0];
+        reports::ReportedResult& reported = result.reported;
+        const double below = part(drawn), above = part(drawn), width = std::max(below, above);
+        reported.method = "monte_carlo";
+        reported.U.reset();
+        reported.k.reset();
+        reported.u = trial % 3 == 0 ? std::nullopt : std::optional(0.4 * part(drawn));
+        reported.interval = std::array{reported.value - below, reported.value + above};
+        AuditSubject subject = subject_of(record, "record.json");
+        AuditedBudget& budget = subject.budgets.front();
+        EXPECT_FALSE(budget.claims.U || budget.claims.k);
+        EXPECT_NEAR(evaluate(budget).U, width, 1e-9);
+        budget.rule = gum::DecisionRule::guard_band_u;
+        budget.limits.upper = reported.value + 1.001 * width;
+        EXPECT_EQ(evaluate(budget).verdict, "pass");
+        budget.limits.upper = reported.value + 0.999 * width;
+        EXPECT_EQ(evaluate(budget).verdict, "fail");
     }
 }
 

@@ -71,6 +71,24 @@ TEST(UnitCheck, ArgumentsOfFunctions) {
     EXPECT_EQ(code("y = atan2(x, T)"), "0030 m/0, column 5");
 }
 
+/// Wherever a level and a number meet, the message says how one is made of the other, and what it says balances.
+TEST(UnitCheck, TheDecibelIsNotOne) {
+    std::vector<InputSymbol> quantities = checked_quantities();
+    quantities.push_back(input("L", "dB"));
+    quantities.push_back(input("dB_1", "dB", 1.0));
+    const auto problems = [&](const std::string& equation, const std::vector<OutputSymbol>& outputs = {}) {
+        return problems_of({equation}, quantities, {}, outputs);
+    };
+    EXPECT_EQ(codes(problems("y = L - 2*L + 20*log10(x/l)*dB_1", {output("y", "dB")})), "");
+    EXPECT_EQ(codes(problems("y = l*10^(L/(20*dB_1))", {output("y", "m")})), "");
+    for (const std::vector<Diagnostic>& found :
+         {problems("y = L + 20*log10(x/l)"), problems("y = l*10^(L/20)"),
+          problems("y = 20*log10(x/l)", {output("y", "dB")}), problems("y = L", {output("y", "1")})}) {
+        ASSERT_EQ(found.size(), 1U);
+        EXPECT_THAT(found[0].action, HasSubstr("dB_1"));
+    }
+}
+
 TEST(UnitCheck, TheRadianIsNotOne) {
     EXPECT_EQ(code("y = l*phi", {output("y", "m")}), "0035 output y");
     EXPECT_EQ(code("y = l*phi/rad", {output("y", "m")}), "");
