@@ -232,12 +232,11 @@ set(GUMCERT_ONLY_IN gum/quantity/dense_factors.h Eigen/Eigenvalues Eigen/QR Eige
 set(GUMCERT_PRIVATE_HEADERS archive/store/postgresql_connection.h archive/store/postgresql_schema.h
                             archive/store/sqlite_schema.h archive/store/sqlite_statement.h
                             engine/rotary_table/start/candidate_places.h engine/rotary_table/start/closed_solution.h
-                            engine/rotary_table/start/common_set_up.h engine/rotary_table/start/fit_limits.h
+                            engine/rotary_table/start/fit_limits.h
                             engine/rotary_table/start/gross_errors.h engine/rotary_table/start/interrupted_beams.h
                             engine/rotary_table/start/no_rigid_table.h engine/rotary_table/start/wrong_labels.h
                             engine/rotary_table/start/label_hypothesis.h engine/rotary_table/start/labels_of_station.h
                             engine/rotary_table/start/labels_of_visits.h engine/rotary_table/start/millimetres_text.h
-                            engine/rotary_table/start/observed_stations.h engine/rotary_table/start/open_places.h
                             engine/rotary_table/start/place_of_reflector.h engine/rotary_table/start/place_search.h
                             engine/rotary_table/start/robust_descent.h engine/rotary_table/start/selected_lengths.h
                             engine/rotary_table/start/shifted_angles.h engine/rotary_table/start/station_distances.h

@@ -15,6 +15,7 @@
 #include "engine/degrees_text.h"
 #include "engine/median.h"
 #include "engine/rotary_table/anglewise_map.h"
+#include "engine/rotary_table/evaluation/rival_tables.h"
 #include "engine/rotary_table/geometry_check.h"
 #include "engine/rotary_table/group_notes.h"
 #include "engine/rotary_table/start/start_search.h"
@@ -148,8 +149,6 @@ JointAdjustment with_active(const JointAdjustment& from, const std::vector<bool>
     return result;
 }
 
-// Whitened residual of a visit, together, above which the robust search lets it count less.
-constexpr double k_robust_scale = 10.0;
 // Mean whitened residual above which something is grossly wrong, and the robust search is asked.
 constexpr double k_gross_misfit = 30.0;
 // Gauss-Newton steps within which an adjustment without gross errors comes to its end; sound ones need three.
@@ -898,25 +897,21 @@ Adjusted adjust_and_test(const RotaryTableMeasurement& measurement, StartSearch&
         found.push_back(finding);
     };
     std::ranges::for_each(gross, set_aside);
-    StartValues start = start_search.start_values(active);
-    refuse_inclined_fixture(measurement.axis, start.set_up);
-    // Error motions about another axis would be large turns: of an inclined fixture the adjustment starts upright.
-    RigidMotion start_set_up;
-    if (inclination(measurement.axis, start.set_up) > k_small_inclination) {
-        start_set_up = start.set_up;
-        for (Eigen::Vector3d& station : start.stations) {
-            station = start_set_up * station;
-        }
-    }
+    const ObservedStations observed(measurement, active);
+    PlacedAdjustment placed =
+        placed_adjustment(observed, active, start_search.places(active), stochastic, options.workers);
+    refuse_inclined_fixture(measurement.axis, placed.start.set_up);
     // Before the adjustment, which would not converge, or would name parameters that do not show the cause.
-    if (const std::optional<gum::Diagnostic> line = stations_on_one_line(start.stations)) {
+    if (const std::optional<gum::Diagnostic> line = stations_on_one_line(placed.start.stations)) {
         start_search.refuse_no_rigid_table();
         throw gum::NoResultError(*line);
     }
-    JointAdjustment first(measurement, active, start_set_up, start, stochastic);
-    first.adjustment().set_workers(options.workers);
+    JointAdjustment& first = placed.adjustment;
+    Eigen::Index degrees_of_freedom = 0;
     const auto require_rank = [&](const JointAdjustment& adjustment) {
-        const RankReport rank = adjustment.adjustment().linearise().rank(options.solver.rank_tolerance);
+        const NormalEquations normal = adjustment.adjustment().linearise();
+        degrees_of_freedom = normal.observation_count() - normal.parameter_count();
+        const RankReport rank = normal.rank(options.solver.rank_tolerance);
         if (rank.deficient) {
             refuse_undetermined(measurement, rank, adjustment.present_values().stations);
         }
@@ -937,21 +932,23 @@ Adjusted adjust_and_test(const RotaryTableMeasurement& measurement, StartSearch&
     if (may_leave_out) {
         first_steps.max_refinements = std::min(k_refinements_without_gross_errors, rough.max_refinements);
     }
-    SolveSummary summary = first.adjustment().solve(first_steps);
+    SolveSummary& summary = placed.summary;
+    summary = first.adjustment().solve(first_steps);
+    settle_rival_tables(observed, active, stochastic, first_steps, static_cast<double>(degrees_of_freedom), placed);
     const auto is_grossly_wrong = [&] {
         const double misfit = std::sqrt(summary.chi_square / static_cast<double>(measurement.lengths.size()));
         return !summary.converged || misfit > k_gross_misfit;
     };
     // What is largest hides what is smaller: the search goes on while it finds something.
     for (int search = 0; search < k_most_gross_searches && may_leave_out && is_grossly_wrong(); ++search) {
-        JointAdjustment robust(measurement, active, start_set_up, search == 0 ? start : first.present_values(),
+        JointAdjustment robust(measurement, active, placed.set_up, search == 0 ? placed.start : first.present_values(),
                                stochastic);
         const std::vector<std::size_t> deviating = find_gross_deviations(robust, rough);
         if (search > 0 && deviating.empty()) {
             break;
         }
         std::ranges::for_each(deviating, set_aside);
-        first = JointAdjustment(measurement, active, start_set_up, robust.present_values(), stochastic);
+        first = JointAdjustment(measurement, active, placed.set_up, robust.present_values(), stochastic);
         first.adjustment().set_workers(options.workers);
         first.copy_parameters_from(robust);
         first.set_weights(stochastic);

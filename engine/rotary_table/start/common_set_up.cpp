@@ -1,5 +1,6 @@
 #include "engine/rotary_table/start/common_set_up.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <utility>
@@ -120,7 +121,8 @@ bool has_mirrored_table(const ObservedStations& observed, const Eigen::Vector4d&
     const Eigen::Vector3d normal = eigen.eigenvectors().col(0);
     const Eigen::Vector3d axis = observed.set_up_motion(set_up).rotation.row(axial).transpose();
     const Eigen::Vector3d mirrored = 2.0 * normal.dot(axis) * normal - axis;  // in the fixture, as the axis
-    return mirrored[axial] > std::cos(k_upright);
+    // Of two that are both inclined more than that, the more upright one is no better known.
+    return mirrored[axial] > std::min(std::cos(k_upright), axis[axial]);
 }
 
 bool has_other_side(const ObservedStations& observed, const CommonFit& within) {

@@ -11,6 +11,7 @@
 #include "engine/rotary_table/start/candidate_places.h"
 #include "engine/rotary_table/start/fit_limits.h"
 #include "engine/rotary_table/start/millimetres_text.h"
+#include "engine/rotary_table/start/rival_places.h"
 #include "gum/quantity/dense_factors.h"
 #include "gum/quantity/diagnostic.h"
 
@@ -79,6 +80,14 @@ bool is_rival(const StationFit& found, const StationFit& rival) {
     // Twice as large a misfit is no better explanation; and two places a centimetre apart are one.
     return rival.misfit < k_rival_factor * found.misfit + 1e-9 &&
            (rival.position - found.position).norm() > k_rival_distance;
+}
+
+std::vector<Eigen::Vector3d> places_of(const CommonFit& fit) {
+    std::vector<Eigen::Vector3d> places;
+    for (const StationFit& station : fit.stations) {
+        places.push_back(station.position);
+    }
+    return places;
 }
 
 std::string in_millimetres(const Eigen::Vector3d& position) {
@@ -182,26 +191,24 @@ void settle_mirror_images(const ObservedStations& observed, CommonFit& found) {
 }
 
 /// Two set-ups that have the same distances, of which settle_mirror_images() sees none: its descent begins with the tilt of the
-/// fixture to the other side, and not with that of the plane of the reflectors. Stated positions have led to one of them.
-void refuse_mirrored_table(const ObservedStations& observed, const CommonFit& found) {
-    const RotaryTableMeasurement& measurement = observed.measurement();
-    const auto is_stated = [](const std::optional<Eigen::Vector3d>& start) { return start.has_value(); };
-    if (std::ranges::any_of(measurement.station_start, is_stated) || !has_mirrored_table(observed, found.set_up)) {
+/// fixture to the other side, and not with that of the plane of the reflectors.
+void settle_mirrored_table(const ObservedStations& observed, CommonFit& found) {
+    if (!has_mirrored_table(observed, found.set_up)) {
         return;
     }
-    const int axial = axial_coordinate(measurement.axis);
-    const double height =
-        (observed.set_up_motion(found.set_up) * measurement.fixture.colwise().mean().transpose())[axial];
-    std::vector<std::size_t> all;
-    std::vector<Eigen::Vector3d> image;
-    for (const StationFit& fit : found.stations) {
-        all.push_back(image.size());
-        image.push_back(fit.position);
-        image.back()[axial] = 2.0 * height - fit.position[axial];
+    std::optional<CommonFit> mirrored = mirrored_table(observed, found);
+    if (!mirrored) {
+        return;
     }
-    refuse_sides(measurement, found.stations, all, image,
-                 "reflectors in one plane near the one across the axis: with the fixture inclined to the other side "
-                 "their mirror image has the same distances");
+    const std::vector<Eigen::Vector3d> here = places_of(found);
+    const std::vector<Eigen::Vector3d> there = places_of(*mirrored);
+    const std::optional<double> nearer = nearer_to_stated(observed.measurement(), here, there);
+    if (!nearer) {
+        refuse_either(observed.measurement(), here, there, RivalTable::same_distances);
+    }
+    if (*nearer > 0.0) {
+        found = *std::move(mirrored);
+    }
 }
 
 /// \param open  places of which some seem to be open
@@ -228,12 +235,53 @@ std::optional<CommonFit> settled_within_reach(const ObservedStations& observed, 
 
 }  // namespace
 
+std::optional<double> nearer_to_stated(const RotaryTableMeasurement& measurement,
+                                       const std::vector<Eigen::Vector3d>& found,
+                                       const std::vector<Eigen::Vector3d>& other) {
+    constexpr double k_told_apart = 0.1;  // [m], by positions that are stated to some centimetres
+    double nearer = 0.0;
+    bool told_apart = false;
+    for (std::size_t j = 0; j < found.size(); ++j) {
+        if (const std::optional<Eigen::Vector3d>& stated = measurement.station_start[j]) {
+            nearer += (found[j] - *stated).norm() - (other[j] - *stated).norm();
+            told_apart = told_apart || (found[j] - other[j]).norm() > k_told_apart;
+        }
+    }
+    return told_apart ? std::optional<double>(nearer) : std::nullopt;
+}
+
+void refuse_either(const RotaryTableMeasurement& measurement, const std::vector<Eigen::Vector3d>& found,
+                   const std::vector<Eigen::Vector3d>& other, RivalTable rival) {
+    std::vector<StationFit> fits(found.size());
+    std::vector<std::size_t> open;
+    for (std::size_t j = 0; j < found.size(); ++j) {
+        fits[j].position = found[j];
+        if ((found[j] - other[j]).norm() > k_rival_distance) {
+            open.push_back(j);
+        }
+    }
+    if (open.empty()) {
+        open.push_back(0);  // only the set-ups differ
+    }
+    if (rival == RivalTable::same_distances) {
+        refuse_sides(measurement, fits, open, other,
+                     "reflectors in one plane near the one across the axis: with the fixture inclined to the other "
+                     "side their mirror image has the same distances");
+    }
+    if (rival == RivalTable::nearly_mirrored) {
+        refuse_sides(measurement, fits, open, other,
+                     "reflectors nearly in one plane near the one across the axis: with the fixture inclined to the "
+                     "other side their mirror image has nearly the same distances");
+    }
+    refuse_sides(measurement, fits, open, other, "of two tables that the distances fit alike neither is a result");
+}
+
 void settle_open_places(const ObservedStations& observed, CommonFit& found) {
     for (std::size_t j = 0; j < found.stations.size(); ++j) {
         refuse_open_direction(observed, found, j);
     }
     settle_mirror_images(observed, found);
-    refuse_mirrored_table(observed, found);
+    settle_mirrored_table(observed, found);
 }
 
 CommonFit settled_places(const ObservedStations& observed, const std::vector<StationFit>& alone) {

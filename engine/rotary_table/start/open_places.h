@@ -1,5 +1,10 @@
 #pragma once
 
+#include <Eigen/Core>
+
+#include <optional>
+#include <vector>
+
 #include "engine/rotary_table/start/common_set_up.h"
 
 namespace gumcert::engine {
@@ -19,5 +24,25 @@ void settle_open_places(const ObservedStations& observed, CommonFit& found);
 /// \param alone  one a station of the measurement, each on its own
 /// \throws gum::NoResultError  as settle_open_places()
 [[nodiscard]] CommonFit settled_places(const ObservedStations& observed, const std::vector<StationFit>& alone);
+
+/// How much nearer to the stated positions all of them together stand in another place, [m]; nothing where no station is
+/// stated whose two places are so far from each other that a position to some centimetres tells them apart.
+/// \param found, other  one a station, in the frame of the stated positions, [m]
+[[nodiscard]] std::optional<double> nearer_to_stated(const RotaryTableMeasurement& measurement,
+                                                     const std::vector<Eigen::Vector3d>& found,
+                                                     const std::vector<Eigen::Vector3d>& other);
+
+/// What a table is to one that fits as well.
+enum class RivalTable {
+    same_distances,    ///< its mirror image, of reflectors in one plane
+    nearly_mirrored,   ///< of reflectors nearly in one plane
+    with_other_places  ///< any other
+};
+
+/// Of two tables that fit alike none is the result.
+/// \param found, other  one a station, [m]
+/// \throws gum::NoResultError  always, GC-RANK-0001 with the first station that stands elsewhere, both its places, and the others
+[[noreturn]] void refuse_either(const RotaryTableMeasurement& measurement, const std::vector<Eigen::Vector3d>& found,
+                                const std::vector<Eigen::Vector3d>& other, RivalTable rival);
 
 }  // namespace gumcert::engine

@@ -4,13 +4,11 @@
 #include <optional>
 #include <utility>
 
-#include "engine/rotary_table/start/common_set_up.h"
 #include "engine/rotary_table/start/gross_errors.h"
 #include "engine/rotary_table/start/interrupted_beams.h"
 #include "engine/rotary_table/start/no_rigid_table.h"
 #include "engine/rotary_table/start/open_places.h"
 #include "engine/rotary_table/start/place_search.h"
-#include "engine/rotary_table/start/start_values.h"
 #include "engine/rotary_table/start/wrong_labels.h"
 #include "gum/quantity/diagnostic.h"
 
@@ -55,10 +53,12 @@ const std::vector<std::size_t>& StartSearch::gross_errors() {
     return *found_->gross;
 }
 
-StartValues StartSearch::start_values(const std::vector<bool>& active) {
-    return std::ranges::find(active, false) == active.end()
-               ? start_values_of(found_->search.observed(), found_->together())
-               : find_start_values(found_->measurement, active);
+CommonFit StartSearch::places(const std::vector<bool>& active) {
+    if (std::ranges::find(active, false) == active.end()) {
+        return found_->together();
+    }
+    const PlaceSearch without(found_->measurement, active);
+    return settled_places(without.observed(), without.fit_each());
 }
 
 void StartSearch::refuse_no_rigid_table() const {

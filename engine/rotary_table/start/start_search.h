@@ -4,8 +4,8 @@
 #include <memory>
 #include <vector>
 
-#include "engine/rotary_table/joint_adjustment.h"
 #include "engine/rotary_table/rotary_table_measurement.h"
+#include "engine/rotary_table/start/common_set_up.h"
 
 namespace gumcert::engine {
 
@@ -22,9 +22,9 @@ public:
 
     /// find_gross_errors() of the measurement.
     [[nodiscard]] const std::vector<std::size_t>& gross_errors();
-    /// find_start_values() of the measurement.
+    /// The places of the stations of which find_start_values() makes the start values of the measurement.
     /// \param active  one flag a length: false = left out
-    [[nodiscard]] StartValues start_values(const std::vector<bool>& active);
+    [[nodiscard]] CommonFit places(const std::vector<bool>& active);
     /// To be asked before a measurement is refused for its layout.
     /// \throws gum::NoResultError  GC-ADJUST-0015 where a station fits no place: no_rigid_table()
     void refuse_no_rigid_table() const;

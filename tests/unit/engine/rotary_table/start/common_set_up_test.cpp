@@ -59,5 +59,13 @@ TEST(CommonSetUp, NobodyHasTheOtherSideOfAnInclinedPlaneAndAFixtureInSpaceHasNon
     EXPECT_FALSE(has_mirrored_table(PlaceSearch(in_space.measurement).observed(), Eigen::Vector4d::Zero()));
 }
 
+// The plane stands 18° off, the axis 25° beside its coordinate: of the mirror image 12°. Neither is upright, and either may be.
+TEST(CommonSetUp, OfTwoInclinedTablesNoneIsKnownBetter) {
+    const synthetic::Campaign inclined = three_reflectors(0.05);
+    const ObservedStations observed(inclined.measurement, {});
+    EXPECT_TRUE(has_mirrored_table(observed, {0.0, 0.0, 0.3833, -0.2138}));
+    EXPECT_FALSE(has_mirrored_table(observed, {0.0, 0.0, -0.3833, 0.2138})) << "of 62°";
+}
+
 }  // namespace
 }  // namespace gumcert::engine

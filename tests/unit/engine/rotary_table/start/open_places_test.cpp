@@ -179,6 +179,41 @@ TEST(OpenPlaces, NoFalseSideIsTakenWithinReach) {
     }
 }
 
+// Positions are stated to some centimetres: they decide nothing between places that are nearer to each other.
+TEST(OpenPlaces, StatedPositionsDecideBetweenPlacesADecimetreApart) {
+    RotaryTableMeasurement measurement = simulate(synthetic::small_plan()).measurement;
+    std::vector<Eigen::Vector3d> here(6, Eigen::Vector3d::Zero());
+    std::vector<Eigen::Vector3d> there = here;
+    there[2][0] = 0.3;
+    EXPECT_FALSE(nearer_to_stated(measurement, here, there)) << "none is stated";
+    measurement.station_start[2] = Eigen::Vector3d(0.29, 0.0, 0.0);
+    ASSERT_TRUE(nearer_to_stated(measurement, here, there));
+    EXPECT_NEAR(*nearer_to_stated(measurement, here, there), 0.28, 1e-12);
+    EXPECT_NEAR(*nearer_to_stated(measurement, there, here), -0.28, 1e-12);
+    there[2][0] = 0.09;
+    EXPECT_FALSE(nearer_to_stated(measurement, here, there));
+}
+
+TEST(OpenPlaces, RefusalOfEitherTableNamesTheStationsThatStandElsewhere) {
+    const RotaryTableMeasurement measurement = simulate(synthetic::small_plan()).measurement;
+    const std::vector<Eigen::Vector3d> here(6, Eigen::Vector3d(0.5, 0.0, 0.0));
+    std::vector<Eigen::Vector3d> there = here;
+    there[1][0] = -0.3;
+    there[4][1] = 0.2;
+    for (const RivalTable rival :
+         {RivalTable::same_distances, RivalTable::nearly_mirrored, RivalTable::with_other_places}) {
+        const std::vector<gum::Diagnostic> problems =
+            synthetic::problems_of([&] { refuse_either(measurement, here, there, rival); });
+        ASSERT_EQ(problems.size(), 1U);
+        EXPECT_EQ(problems[0].code, "GC-RANK-0001");
+        EXPECT_EQ(problems[0].where, "station P2");
+        EXPECT_EQ(problems[0].what,
+                  "its distances fit a position near (500, 0, 0) mm and one near (-300, 0, 0) mm alike; the same holds "
+                  "for P5");
+        EXPECT_EQ(problems[0].rule.find("mirror image") != std::string::npos, rival != RivalTable::with_other_places);
+    }
+}
+
 TEST(OpenPlaces, AUsualLayoutHasNone) {
     const Campaign campaign = simulate(synthetic::small_plan());
     const PlaceSearch search(campaign.measurement);

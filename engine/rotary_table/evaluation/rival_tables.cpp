@@ -1,0 +1,260 @@
+#include "engine/rotary_table/evaluation/rival_tables.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "engine/median.h"
+#include "engine/rotary_table/datum.h"
+#include "engine/rotary_table/start/open_places.h"
+#include "engine/rotary_table/start/rival_places.h"
+#include "engine/rotary_table/start/start_values.h"
+#include "gum/quantity/diagnostic.h"
+
+namespace gumcert::engine {
+
+namespace {
+
+constexpr double k_doubtful = 10.0;  // cost for a degree of freedom
+constexpr double k_clearly = 20.0;   // of costs, where noise is as stated
+
+/// How well a table fits.
+struct Fit {
+    double cost =
+        0.0;  ///< Σ s² log(1 + r²/s²) over the residuals r of the visits, and squares of what is known beforehand
+    double unit = 1.0;  ///< variance of the noise against the stated one, by the median of the visits; 1 at least
+};
+
+Fit fit_at(const JointAdjustment& adjustment, double degrees_of_freedom) {
+    constexpr double k_squared = k_robust_scale * k_robust_scale;
+    const NormalEquations normal = adjustment.adjustment().linearise();
+    Fit fit;
+    std::vector<double> of_visits;
+    for (std::size_t g = 0; g < normal.groups().size(); ++g) {
+        const Eigen::VectorXd& residual = normal.groups()[g].residual;
+        const double squares = residual.squaredNorm();
+        const bool is_visit = g < adjustment.visits().size();
+        fit.cost += is_visit ? k_squared * std::log1p(squares / k_squared) : squares;
+        if (is_visit && residual.size() > 0) {
+            of_visits.push_back(squares / static_cast<double>(residual.size()));
+        }
+    }
+    if (!of_visits.empty()) {
+        fit.unit = std::max(
+            1.0, upper_median(of_visits) * static_cast<double>(normal.observation_count()) / degrees_of_freedom);
+    }
+    return fit;
+}
+
+/// In the frame of the fixture at home, which they share whatever T_s is held.
+std::vector<Eigen::Vector3d> stations_of(const PlacedAdjustment& placed) {
+    const RigidMotion fixture_from_table = placed.set_up.inverse();
+    std::vector<Eigen::Vector3d> stations = placed.adjustment.present_values().stations;
+    for (Eigen::Vector3d& station : stations) {
+        station = fixture_from_table * station;
+    }
+    return stations;
+}
+
+/// Where positions are stated: in the frame of the table, with the set-up that was found.
+std::vector<Eigen::Vector3d> stations_in_table(const PlacedAdjustment& placed) {
+    std::vector<Eigen::Vector3d> stations = stations_of(placed);
+    for (Eigen::Vector3d& station : stations) {
+        station = placed.start.set_up * station;
+    }
+    return stations;
+}
+
+/// Another place of a station, or another set-up: stations near the plane of a mirror image hardly move.
+bool is_elsewhere(const PlacedAdjustment& one, const PlacedAdjustment& other) {
+    constexpr double k_same_offset = 1e-3;  // [m]
+    constexpr double k_same_tilt = 0.01;    // [rad]
+    const Eigen::MatrixXd apart = one.adjustment.poses() - other.adjustment.poses();
+    return stands_elsewhere(stations_of(one), stations_of(other)) ||
+           (one.set_up.rotation - other.set_up.rotation).norm() > k_same_tilt ||
+           apart.topRows<3>().cwiseAbs().maxCoeff() > k_same_offset ||
+           apart.bottomRows<3>().cwiseAbs().maxCoeff() > k_same_tilt;
+}
+
+/// Of the fixture against the axis, [rad]; that of no table where it is beyond what is evaluated.
+double adjusted_inclination(const RotaryTableMeasurement& measurement, const PlacedAdjustment& placed) {
+    constexpr double k_none = 4.0;  // [rad]
+    try {
+        const JointAdjustment& adjustment = placed.adjustment;
+        const DatumSolution datum =
+            transform_to_datum(measurement, adjustment.poses(), adjustment.set_up(), measurement.datum);
+        return inclination(measurement.axis, rigid_motion(datum.set_up));
+    } catch (const gum::NoResultError&) {
+        return k_none;
+    }
+}
+
+/// Whether a station stands clearly farther from its stated position.
+bool contradicts_stated(const RotaryTableMeasurement& measurement, const PlacedAdjustment& rival,
+                        const PlacedAdjustment& placed) {
+    constexpr double k_clearly_farther = 0.1;  // [m]: positions are stated to some centimetres
+    const std::vector<Eigen::Vector3d> there = stations_in_table(rival);
+    const std::vector<Eigen::Vector3d> here = stations_in_table(placed);
+    for (std::size_t j = 0; j < here.size(); ++j) {
+        const std::optional<Eigen::Vector3d>& stated = measurement.station_start[j];
+        if (stated && (there[j] - *stated).norm() > (here[j] - *stated).norm() + k_clearly_farther) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/// The best one of the tables that were adjusted, and the others.
+class Rivals {
+public:
+    Rivals(const ObservedStations& observed, const std::vector<bool>& active, const StochasticModel& stochastic,
+           const SolverOptions& solver, double degrees_of_freedom, PlacedAdjustment& best)
+        : observed_(observed),
+          measurement_(observed.measurement()),
+          active_(active),
+          stochastic_(stochastic),
+          solver_(solver),
+          degrees_of_freedom_(degrees_of_freedom),
+          best_(best) {}
+
+    /// More is left than noise and a table that repeats well leave.
+    [[nodiscard]] bool in_doubt() const { return !(best_.summary.chi_square <= k_doubtful * degrees_of_freedom_); }
+
+    void consider(CommonFit places, RivalTable kind) {
+        PlacedAdjustment rival = placed_adjustment(observed_, active_, std::move(places), stochastic_,
+                                                   best_.adjustment.adjustment().workers());
+        if (inclination(measurement_.axis, rival.start.set_up) > k_largest_inclination ||
+            rival.adjustment.adjustment().linearise().rank(solver_.rank_tolerance).deficient) {
+            return;
+        }
+        rival.summary = rival.adjustment.adjustment().solve(solver_);
+        if (!fit_) {
+            fit_ = fit_of(best_);
+        }
+        const Fit rival_fit = fit_of(rival);
+        if (contradicts_stated(measurement_, rival, best_)) {
+            // The other side of what has the same distances may be where it is stated.
+            std::optional<CommonFit> mirrored = mirrored_table(observed_, rival.places);
+            if (mirrored && kind != RivalTable::nearly_mirrored) {
+                consider(*std::move(mirrored), RivalTable::nearly_mirrored);
+            }
+            return;
+        }
+        if (!is_elsewhere(best_, rival) ||
+            adjusted_inclination(measurement_, rival) >
+                std::max(k_small_inclination, adjusted_inclination(measurement_, best_))) {
+            return;
+        }
+        const bool better = rival_fit.cost < fit_->cost;
+        others_.push_back({std::move(rival), rival_fit, kind});
+        if (better) {
+            std::swap(best_, others_.back().placed);
+            std::swap(*fit_, others_.back().fit);
+        }
+    }
+
+    /// \throws gum::NoResultError  GC-RANK-0001 where another one fits as well, and no position is stated
+    void decide() {
+        for (Other& other : others_) {
+            const std::vector<Eigen::Vector3d> here = stations_in_table(best_);
+            const std::vector<Eigen::Vector3d> there = stations_in_table(other.placed);
+            if (other.fit.cost - fit_->cost > k_clearly * fit_->unit || !is_elsewhere(best_, other.placed)) {
+                continue;
+            }
+            const std::optional<double> nearer = nearer_to_stated(measurement_, here, there);
+            if (!nearer) {
+                refuse_either(measurement_, here, there, other.kind);
+            }
+            if (*nearer > 0.0) {
+                std::swap(best_, other.placed);
+            }
+        }
+    }
+
+private:
+    /// Of a solved adjustment; where much is left, of a robust one as well: gross errors have carried the former away, or it has
+    /// left the place of its start for a worse one.
+    /// \param placed  becomes what the robust one leads to, where that is better
+    [[nodiscard]] Fit fit_of(PlacedAdjustment& placed) const {
+        const Fit fit = fit_at(placed.adjustment, degrees_of_freedom_);
+        if (fit.cost <= k_doubtful * degrees_of_freedom_) {
+            return fit;
+        }
+        PlacedAdjustment robust = placed;
+        robust.adjustment = JointAdjustment(measurement_, active_, placed.set_up, placed.start, stochastic_);
+        robust.adjustment.adjustment().set_workers(placed.adjustment.adjustment().workers());
+        SolverOptions solver = solver_;
+        solver.robust_scale = k_robust_scale;
+        (void)robust.adjustment.adjustment().solve(solver);
+        const Fit without_errors = fit_at(robust.adjustment, degrees_of_freedom_);
+        if (!(without_errors.cost < fit.cost)) {
+            return fit;
+        }
+        if (is_elsewhere(placed, robust)) {
+            robust.summary = robust.adjustment.adjustment().solve(solver_);
+            if (robust.summary.chi_square < placed.summary.chi_square) {
+                placed = std::move(robust);
+            }
+        }
+        return without_errors;
+    }
+
+    struct Other {
+        PlacedAdjustment placed;
+        Fit fit;
+        RivalTable kind;
+    };
+    const ObservedStations& observed_;
+    const RotaryTableMeasurement& measurement_;
+    const std::vector<bool>& active_;
+    const StochasticModel& stochastic_;
+    const SolverOptions& solver_;
+    double degrees_of_freedom_;
+    PlacedAdjustment& best_;
+    std::optional<Fit> fit_;  // of the best one, once there is another one
+    std::vector<Other> others_;
+};
+
+}  // namespace
+
+PlacedAdjustment placed_adjustment(const ObservedStations& observed, const std::vector<bool>& active, CommonFit places,
+                                   const StochasticModel& stochastic, const Workers& workers) {
+    const RotaryTableMeasurement& measurement = observed.measurement();
+    StartValues start = start_values_of(observed, places);
+    // Error motions about another axis would be large turns: of an inclined fixture the adjustment starts upright.
+    RigidMotion set_up;
+    if (inclination(measurement.axis, start.set_up) > k_small_inclination) {
+        set_up = start.set_up;
+        for (Eigen::Vector3d& station : start.stations) {
+            station = set_up * station;
+        }
+    }
+    JointAdjustment adjustment(measurement, active, set_up, start, stochastic);
+    adjustment.adjustment().set_workers(workers);
+    return {std::move(places), set_up, std::move(start), std::move(adjustment)};
+}
+
+void settle_rival_tables(const ObservedStations& observed, const std::vector<bool>& active,
+                         const StochasticModel& stochastic, const SolverOptions& solver, double degrees_of_freedom,
+                         PlacedAdjustment& placed) {
+    Rivals rivals(observed, active, stochastic, solver, std::max(1.0, degrees_of_freedom), placed);
+    if (rivals.in_doubt()) {
+        const CommonFit found = placed.places;
+        const CommonFit within = fit_within_reach(observed);
+        rivals.consider(within, RivalTable::with_other_places);
+        for (const CommonFit* const from : {&within, &found}) {
+            if (rivals.in_doubt()) {
+                rivals.consider(fit_by_turns(observed, *from), RivalTable::with_other_places);
+            }
+        }
+    }
+    if (std::optional<CommonFit> mirrored = mirrored_table(observed, placed.places)) {
+        rivals.consider(*std::move(mirrored), RivalTable::nearly_mirrored);
+    }
+    rivals.decide();
+}
+
+}  // namespace gumcert::engine

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <vector>
+
+#include "engine/rotary_table/joint_adjustment.h"
+#include "engine/rotary_table/rotary_table_measurement.h"
+#include "engine/rotary_table/start/common_set_up.h"
+
+namespace gumcert::engine {
+
+/// A joint adjustment that begins with places of the stations.
+struct PlacedAdjustment {
+    CommonFit places;    ///< found without error motions
+    RigidMotion set_up;  ///< T_s that the adjustment holds: 1, or of an inclined fixture where it was found
+    StartValues start;   ///< made of the places
+    JointAdjustment adjustment;
+    SolveSummary summary = {};  ///< of the adjustment, once it was solved
+};
+
+// Whitened residual of a visit, together, above which a robust search lets it count less.
+constexpr double k_robust_scale = 10.0;
+
+/// Not solved.
+/// \param observed  of the same distances
+/// \param active    one flag a length: false = left out
+[[nodiscard]] PlacedAdjustment placed_adjustment(const ObservedStations& observed, const std::vector<bool>& active,
+                                                 CommonFit places, const StochasticModel& stochastic,
+                                                 const Workers& workers);
+
+/// Of tables that the distances may mean as well, the one that they fit best.
+///
+/// A search without error motions hardly tells them apart; the adjustment does. The mirror image of the table is asked wherever its
+/// distances are near (mirrored_table()). Where far more is left than noise and a table that repeats well leave, the stations are
+/// looked for once more, within reach (fit_within_reach()) and by turns (fit_by_turns()): few reflectors on dead paths of their own,
+/// seen over part of a turn, lead a search to places at which error motions that nobody has make up for the rest. A fixture inclined
+/// by more than 10° is no rival of one that is less, nor is a table whose stations stand a decimetre farther from where they are
+/// stated.
+///
+/// Compared are costs by Cauchy's function, in which gross errors hardly count; with none of them they are chi-squares. Clearly
+/// better is an odds ratio of 1 : 20000. Where neither is clearly better stated positions decide.
+///
+/// \param solver              for all
+/// \param degrees_of_freedom  of each
+/// \param placed              solved; becomes the better one
+/// \throws gum::NoResultError  GC-RANK-0001 where two fit alike, and no position is stated
+void settle_rival_tables(const ObservedStations& observed, const std::vector<bool>& active,
+                         const StochasticModel& stochastic, const SolverOptions& solver, double degrees_of_freedom,
+                         PlacedAdjustment& placed);
+
+}  // namespace gumcert::engine

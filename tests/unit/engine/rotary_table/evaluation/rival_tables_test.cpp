@@ -1,0 +1,150 @@
+// Tables that distances of few reflectors may mean as well: the best one is the result, or none is.
+#include "engine/rotary_table/evaluation/rival_tables.h"
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <utility>
+#include <vector>
+
+#include "engine/rotary_table/evaluation/rotary_table_evaluation.h"
+#include "engine/rotary_table/start/observed_stations.h"
+#include "engine/rotary_table/start/open_places.h"
+#include "engine/rotary_table/start/place_search.h"
+#include "engine/rotary_table/variance_components.h"
+#include "gum/quantity/diagnostic.h"
+#include "tests/support/few_reflectors.h"
+
+namespace gumcert::engine {
+namespace {
+
+using synthetic::Campaign;
+using synthetic::CampaignPlan;
+using synthetic::ring_of_few;
+
+Campaign measured(const CampaignPlan& plan) {
+    Campaign campaign = simulate(plan);
+    campaign.measurement.table_repeatability = {};
+    campaign.measurement.table_repeatability.mode = RepeatabilityMode::estimate;
+    return campaign;
+}
+
+enum class Answer { right, wrong, none };
+
+Answer answer_of(const Campaign& campaign, const PlacedAdjustment& placed) {
+    constexpr double k_wrong_place = 0.1;  // [m]
+    const RigidMotion fixture_from_table = rigid_motion(campaign.truth.set_up).inverse();
+    const std::vector<Eigen::Vector3d> found = placed.adjustment.present_values().stations;
+    for (std::size_t j = 0; j < found.size(); ++j) {
+        const Eigen::Vector3d in_fixture = placed.set_up.inverse() * found[j];
+        if (!((in_fixture - fixture_from_table * campaign.truth.stations[j]).norm() < k_wrong_place)) {
+            return Answer::wrong;
+        }
+    }
+    return Answer::right;
+}
+
+struct Answers {
+    std::size_t right = 0, wrong = 0, none = 0, wrong_before = 0;
+};
+
+/// From the places of a search without error motions, and by the adjustments of all tables that have nearly their distances.
+Answers answers_to(const std::function<CampaignPlan(std::uint64_t)>& plan, std::uint64_t campaigns) {
+    Answers answers;
+    SolverOptions solver;
+    solver.step_tolerance = 1e-3;
+    for (std::uint64_t seed = 1; seed <= campaigns; ++seed) {
+        const Campaign campaign = measured(plan(seed));
+        const std::vector<bool> all(campaign.measurement.lengths.size(), true);
+        const StochasticModel stochastic = start_variances(campaign.measurement.table_repeatability);
+        const PlaceSearch search(campaign.measurement);
+        Answer answer = Answer::none;
+        try {
+            PlacedAdjustment placed = placed_adjustment(
+                search.observed(), all, settled_places(search.observed(), search.fit_each()), stochastic, {});
+            const NormalEquations normal = placed.adjustment.adjustment().linearise();
+            placed.summary = placed.adjustment.adjustment().solve(solver);
+            answers.wrong_before += answer_of(campaign, placed) == Answer::wrong ? 1U : 0U;
+            settle_rival_tables(search.observed(), all, stochastic, solver,
+                                static_cast<double>(normal.observation_count() - normal.parameter_count()), placed);
+            answer = answer_of(campaign, placed);
+        } catch (const gum::NoResultError& error) {
+            EXPECT_EQ(error.diagnostics().front().code, "GC-RANK-0001") << seed;
+        }
+        (answer == Answer::right ? answers.right : answer == Answer::wrong ? answers.wrong : answers.none) += 1;
+    }
+    return answers;
+}
+
+// Of these a search without error motions has a quarter wrong: stations on false sides, and error motions of 100 µm that make up
+// for it.
+TEST(RivalTables, FewReflectorsOverPartOfATurnStandWhereTheyStoodOrNothingIsSaid) {
+    constexpr std::uint64_t k_campaigns = 25;
+    for (const std::pair<double, double>& of : {std::pair{120.0, 0.06}, {200.0, 0.005}}) {
+        const Answers answers = answers_to(
+            [&](std::uint64_t seed) {
+                return ring_of_few(seed, 3, {0.02, 0.16}, of.first, of.second);
+            },
+            k_campaigns);
+        EXPECT_EQ(answers.wrong, 0U) << of.first;
+        EXPECT_GE(answers.wrong_before, 3U) << of.first << ": nothing is tested";
+        EXPECT_GE(answers.right, k_campaigns * 9 / 10) << of.first;
+    }
+}
+
+// 0.1 mm out of a plane: the mirror image fits within micrometres, and only the adjustment tells that it does not fit.
+TEST(RivalTables, NearlyInOnePlaneTheRightSideIsTakenOrNone) {
+    constexpr std::uint64_t k_campaigns = 30;
+    const Answers answers = answers_to(
+        [](std::uint64_t seed) {
+            return ring_of_few(seed, 4, {0.0498, 0.0502}, 315.0, 0.02);
+        },
+        k_campaigns);
+    EXPECT_EQ(answers.wrong, 0U);
+    EXPECT_GE(answers.wrong_before, 3U) << "nothing is tested";
+    EXPECT_GE(answers.right, answers.wrong_before);
+}
+
+// The evaluation asks for them: without, some of these have a result with a station on the false side.
+TEST(RivalTables, AreAskedForByTheEvaluation) {
+    std::size_t right = 0;
+    for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+        Campaign campaign = measured(ring_of_few(seed, 3, {0.02, 0.16}, 120.0, 0.06));
+        campaign.measurement.outliers.test = OutlierTest::data_snooping;
+        try {
+            const RotaryTableSolution solution = evaluate_jointly(campaign.measurement, EvaluationOptions{});
+            for (std::size_t j = 0; j < solution.stations.size(); ++j) {
+                EXPECT_LT((solution.stations[j].position - campaign.truth.stations[j]).norm(), 0.1)
+                    << seed << ", " << j;
+            }
+            ++right;
+        } catch (const gum::NoResultError& error) {
+            EXPECT_NE(error.diagnostics().front().code, "GC-ADJUST-0013") << seed;
+        }
+    }
+    EXPECT_GE(right, 9U);
+}
+
+// Stated positions decide between a table and its mirror image only where they tell them apart.
+TEST(RivalTables, StatedPositionsDecideBetweenTablesThatFitAlike) {
+    const Campaign campaign = measured(ring_of_few(1, 4, {0.05, 0.05}, 315.0, 0.005));
+    RotaryTableMeasurement measurement = campaign.measurement;
+    for (std::size_t j = 0; j < measurement.stations.size(); ++j) {
+        measurement.station_start[j] = campaign.truth.stations[j] + Eigen::Vector3d(0.03, -0.02, 0.01);
+    }
+    const RotaryTableSolution solution = evaluate_jointly(measurement, EvaluationOptions{});
+    for (std::size_t j = 0; j < solution.stations.size(); ++j) {
+        EXPECT_LT((solution.stations[j].position - campaign.truth.stations[j]).norm(), 0.1) << j;
+    }
+    try {
+        (void)evaluate_jointly(campaign.measurement, EvaluationOptions{});
+        FAIL() << "one of two sides was taken";
+    } catch (const gum::NoResultError& error) {
+        EXPECT_EQ(error.diagnostics().front().code, "GC-RANK-0001");
+    }
+}
+
+}  // namespace
+}  // namespace gumcert::engine
