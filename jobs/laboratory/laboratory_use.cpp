@@ -536,7 +536,34 @@ const StandardRecord* LaboratoryUse::standard_of(const json& id, const Certifica
                      "name the standard as its file is named, without .json");
         return nullptr;
     }
-    return folder_->standard(name);
+    return refuse_absent("standards", name, place) ? nullptr : folder_->standard(name);
+}
+
+bool LaboratoryUse::refuse_absent(const std::string& part, const std::string& id, const CertificatePlace& place) {
+    constexpr std::size_t k_most_named = 20;
+    const std::optional<std::vector<std::string>> others = folder_->others_than(part, id);
+    if (!others) {
+        return false;
+    }
+    const std::string folder = folder_->name_of(part + "/");
+    // The rows of a table name one standard, as a rule: it is told where it stands first.
+    if (!absent_.insert(folder + id).second) {
+        return true;
+    }
+    std::vector<std::string> named;
+    std::transform(others->begin(), others->end(), std::back_inserter(named),
+                   [](const std::string& one) { return text::in_quotes(one); });
+    const std::optional<std::string_view> nearest =
+        nearest_word(id, std::vector<std::string_view>(others->begin(), others->end()));
+    const std::string thing = part.substr(0, part.size() - 1);
+    place.refuse(k_laboratory_absent, text::in_quotes(id) + ", and the laboratory has no such " + thing,
+                 "in " + text::visible(folder) +
+                     (named.empty() ? " there is none"
+                                    : " there " + std::string(named.size() == 1 ? "is " : "are ") +
+                                          text::listed(named, k_most_named)),
+                 (nearest ? "did you mean " + text::in_quotes(*nearest) + "? Else name" : std::string("name")) +
+                     " the " + thing + " as its file is named, without .json, or add the file");
+    return true;
 }
 
 std::optional<std::string> LaboratoryUse::read_take(const JsonDocument& job, const json& statement,
@@ -945,8 +972,10 @@ void LaboratoryUse::complete_by_id(json& data, const char* key, const Certificat
         discard(value);
         return;
     }
-    const json* registered =
-        is_customer ? folder_->customer(id.get<std::string>()) : folder_->method(id.get<std::string>());
+    const bool is_absent = refuse_absent(is_customer ? "customers" : "methods", id.get<std::string>(), at);
+    const json* registered = is_absent     ? nullptr
+                             : is_customer ? folder_->customer(id.get<std::string>())
+                                           : folder_->method(id.get<std::string>());
     if (registered == nullptr) {
         discard(value);
         return;
@@ -1114,10 +1143,14 @@ void LaboratoryUse::complete_standards(json& data, const CertificatePlace& place
         if (record == nullptr) {
             facts_.not_registered.push_back(id);
             if (!entry.contains("name")) {
-                place.below(pointer).refuse(
-                    k_laboratory_id, text::in_quotes(id) + " is not in the register",
-                    "a standard that is named only stands in standards/" + text::visible(id) + ".json",
-                    "add it to the register, or write the standard out");
+                const bool is_told =
+                    LaboratoryFolder::is_identification(id) && refuse_absent("standards", id, place.below(pointer));
+                if (!is_told) {
+                    place.below(pointer).refuse(
+                        k_laboratory_id, text::in_quotes(id) + " is not in the register",
+                        "a standard that is named only stands in standards/" + text::visible(id) + ".json",
+                        "add it to the register, or write the standard out");
+                }
                 discard(entry);
             }
             continue;
