@@ -11,7 +11,7 @@ namespace gumcert::jobs {
 inline constexpr InputCode k_laboratory_missing{"GC-LAB-0100", "a job refers to the laboratory and names none"};
 inline constexpr InputCode k_laboratory_id{"GC-LAB-0101", "an identification that is not the name of its file"};
 inline constexpr InputCode k_laboratory_order{"GC-LAB-0102", "calibrations that are not in the order of their dates"};
-inline constexpr InputCode k_laboratory_coverage{"GC-LAB-0103", "an expanded uncertainty with neither k nor p"};
+inline constexpr InputCode k_laboratory_coverage{"GC-LAB-0103", "an expanded uncertainty that is not stated as one"};
 inline constexpr InputCode k_laboratory_drift{"GC-LAB-0104", "a drift model that lacks what it needs"};
 inline constexpr InputCode k_laboratory_interval{"GC-LAB-0105", "a plan of recalibration that lacks what it needs"};
 inline constexpr InputCode k_laboratory_person{"GC-LAB-0106", "a person whom the laboratory does not name"};

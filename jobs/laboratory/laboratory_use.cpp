@@ -209,6 +209,18 @@ bool is_of_kind(const json& row, const std::string& unit) {
     return gum::Unit::parse(stated.empty() ? "1" : stated).dimension() == gum::Unit::parse(unit).dimension();
 }
 
+/// To the two digits of an uncertainty.
+double in_two_digits(double U) {
+    const std::string text = text::significant(U, 2);
+    std::from_chars(text.data(), text.data() + text.size(), U);
+    return U;
+}
+
+/// U of a line for the list of standards: a share of the value has as many digits as the value.
+double shown_U(const laboratory::CalibrationResult& line, double U) {
+    return line.relative_U ? in_two_digits(U) : U;
+}
+
 double factor_of(const laboratory::CalibrationResult& line) {
     return line.k ? *line.k : line.U / laboratory::standard_uncertainty(line);
 }
@@ -222,7 +234,7 @@ void put_uncertainty_of_kind(json& row, std::vector<const laboratory::Calibratio
     std::erase_if(lines, [&](const laboratory::CalibrationResult* line) {
         const UnitChange change(gum::unit_of_difference(line->unit), unit);
         if (change.is_possible()) {
-            all.emplace_back(change.difference(line->U), factor_of(*line));
+            all.emplace_back(shown_U(*line, change.difference(line->U)), factor_of(*line));
         }
         return change.is_possible();
     });
@@ -230,8 +242,7 @@ void put_uncertainty_of_kind(json& row, std::vector<const laboratory::Calibratio
     const double k = std::max_element(all.begin(), all.end(), less)->second;
     for (auto& [U, own] : all) {
         if (std::abs(own - k) > k_same_U * k) {  // of another k: two digits of what it is with this one
-            const std::string text = text::significant(U / own * k, 2);
-            std::from_chars(text.data(), text.data() + text.size(), U);
+            U = in_two_digits(U / own * k);
         }
     }
     const auto [least, largest] = std::minmax_element(all.begin(), all.end());
@@ -1104,7 +1115,8 @@ void LaboratoryUse::compare_standard(const json& stated, const json& row, const 
                 const double k = factor_of(line);
                 fits = fits || (key == "k" ? value.is_number() && std::abs(value.get<double>() - k) <= k_same_U * k
                                            : U && is_of_kind(stated, line.unit) &&
-                                                 std::abs(*U - of_line) <= k_same_U * of_line);
+                                                 (std::abs(*U - of_line) <= k_same_U * of_line ||
+                                                  (line.relative_U && in_two_digits(*U) == in_two_digits(of_line))));
             }
             if (!fits && (key == "k" || (key != "unit" && U))) {
                 const auto of_row = registered == row.end() ? row.find("U") : registered;

@@ -113,6 +113,33 @@ TEST(LaboratoryUseTest, NamesWhatTheFolderHas) {
                 ElementsAre(AllOf(HasSubstr("GC-LAB-0112"), HasSubstr("p.csv:2:1"))));
 }
 
+/// U as a share of the value is that share of it, and the list of standards shows it with two digits.
+TEST(LaboratoryUseTest, TakesARelativeUncertainty) {
+    std::map<std::string, std::string> files = test::sample_laboratory_files("lab/");
+    json standard = json::parse(files["lab/standards/STD-1.json"]);
+    json& line = standard["/calibrations/1/results/0"_json_pointer];
+    line.erase("U");
+    line["relative_U"] = 2e-4;
+    files["lab/standards/STD-1.json"] = standard.dump();
+    const auto read_with = [&](const json& certificate) {
+        return read(job_of({{"V", {{"standard", "STD-1"}}}}, certificate), files);
+    };
+    const BudgetJob job = read_with(k_work);
+    EXPECT_DOUBLE_EQ(job.inputs[0].components[0].u, 0.5 * 2e-4 * 10.002);
+    ASSERT_EQ(job.certificate->standards.size(), 1U);
+    EXPECT_EQ(job.certificate->standards[0].U, 0.002);
+    const auto contradictions = [&](double U) {
+        json certificate = k_work;
+        certificate["standards"] = {
+            {{"identification", "STD-1"}, {"name", "Standard"}, {"U", U}, {"k", 2}, {"unit", "mV"}}};
+        files["job.json"] = job_of({{"V", {{"standard", "STD-1"}}}}, certificate).dump();
+        return register_of_job(MemoryFileSource(files), "job.json").value().contradictions;
+    };
+    EXPECT_TRUE(contradictions(2.0).empty()) << "to the digits that an uncertainty has";
+    EXPECT_TRUE(contradictions(2.0004).empty());
+    EXPECT_EQ(contradictions(2.1).size(), 1U);
+}
+
 TEST(LaboratoryUseTest, OwnComponentsStandBehindThoseOfTheRegister) {
     const BudgetJob job = read(job_of({{"V",
                                         {{"standard", "STD-1"},
