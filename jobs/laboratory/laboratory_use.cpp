@@ -264,10 +264,16 @@ void put_uncertainty(json& row, std::vector<const laboratory::CalibrationResult*
     }
 }
 
+/// A value as people write it: 0.00006, where JSON has 6e-05.
+std::string in_words(const json& value) {
+    constexpr double k_least_plain = 1e-9;
+    return value.is_number_float() ? text::shortest_plain(value.get<double>(), k_least_plain) : described(value);
+}
+
 /// What tells an entry of a list: a text or number, else its id or name, else the beginning of its JSON.
 std::string described_entry(const json& entry) {
     if (!entry.is_structured()) {
-        return described(entry);
+        return in_words(entry);
     }
     for (const char* key : {"id", "name", "measurand"}) {
         if (const auto found = entry.find(key); entry.is_object() && found != entry.end() && found->is_string()) {
@@ -1120,11 +1126,11 @@ void LaboratoryUse::compare_standard(const json& stated, const json& row, const 
             }
             if (!fits && (key == "k" || (key != "unit" && U))) {
                 const auto of_row = registered == row.end() ? row.find("U") : registered;
-                contradict(key, described(value) + (key != "k" ? " " + text_in(stated, "unit") : std::string()),
-                           described(*of_row) + (key != "k" ? " " + text_in(row, "unit") : std::string()));
+                contradict(key, in_words(value) + (key != "k" ? " " + text_in(stated, "unit") : std::string()),
+                           in_words(*of_row) + (key != "k" ? " " + text_in(row, "unit") : std::string()));
             }
         } else if (registered == row.end() ? value.is_string() : *registered != value) {
-            contradict(key, described(value), registered == row.end() ? "nothing" : described(*registered));
+            contradict(key, in_words(value), registered == row.end() ? "nothing" : in_words(*registered));
         }
     }
 }

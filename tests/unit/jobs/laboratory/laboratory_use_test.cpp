@@ -140,6 +140,16 @@ TEST(LaboratoryUseTest, TakesARelativeUncertainty) {
     EXPECT_EQ(contradictions(2.1).size(), 1U);
 }
 
+TEST(LaboratoryUseTest, TellsContradictionsInPlainDigits) {
+    json certificate = k_work;
+    certificate["standards"] = {
+        {{"identification", "STD-1"}, {"name", "Standard"}, {"U", 6e-5}, {"k", 2}, {"unit", "V"}}};
+    const auto all = register_of(job_of({{"V", {{"standard", "STD-1"}}}}, certificate)).contradictions;
+    ASSERT_EQ(all.size(), 1U);
+    EXPECT_EQ(all[0].stated, "0.00006 V");
+    EXPECT_EQ(all[0].registered, "0.002 V");
+}
+
 TEST(LaboratoryUseTest, OwnComponentsStandBehindThoseOfTheRegister) {
     const BudgetJob job = read(job_of({{"V",
                                         {{"standard", "STD-1"},
