@@ -219,3 +219,13 @@ std::string action_of_name(const std::string& given, const std::string& action) 
 }
 
 }  // namespace gumcert::certificate
+bool is_authorised_by_no_signatory(const CertificateData& data) {
+    const std::optional<Person>& person = data.persons.authorised_by;
+    if (data.status != "accredited" || !data.accreditation || !person || !is_name(person->name)) {
+        return false;
+    }
+    const std::vector<std::string>& all = data.accreditation->signatories;
+    return !all.empty() &&
+           std::ranges::none_of(all, [&](const std::string& name) { return is_same_name(name, person->name); });
+}
+

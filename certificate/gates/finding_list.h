@@ -70,6 +70,12 @@ private:
 
 /// Whether a result of the certificate has one of the names of a scope, a specification …
 [[nodiscard]] bool names_a_result(const Certificate& certificate, const std::vector<std::string>& names);
+/// What the dates of a standard that the certificate lists say against its use: T01, T02, T05.
+void validity_of_standard(FindingList& found, const StandardUsed& standard, std::size_t i, const Dates& dates);
+
+/// Whether an accredited certificate is authorised by somebody who is none of the signatories that it names.
+[[nodiscard]] bool is_authorised_by_no_signatory(const CertificateData& data);
+
 
 /// Those of the names that no result of the certificate has.
 [[nodiscard]] std::vector<std::string> names_of_no_result(const Certificate& certificate,

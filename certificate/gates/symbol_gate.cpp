@@ -95,12 +95,9 @@ void accreditation(FindingList& found, const CertificateData& data) {
                         problem.what + ": " + problem.rule, problem.action);
         }
     }
-    const std::optional<Person>& person = data.persons.authorised_by;
-    if (person && is_name(person->name) && !a.signatories.empty() &&
-        std::none_of(a.signatories.begin(), a.signatories.end(),
-                     [&](const std::string& name) { return is_same_name(name, person->name); })) {
+    if (is_authorised_by_no_signatory(data)) {
         found.critical("P03", iso_17025("6.2.6"), "/persons/authorised_by",
-                       person->name + " is not one of the signatories of accredited certificates",
+                       data.persons.authorised_by->name + " is not one of the signatories of accredited certificates",
                        "Let a signatory authorise the certificate.");
     }
 }

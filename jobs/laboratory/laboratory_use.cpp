@@ -636,7 +636,7 @@ void LaboratoryUse::fill_statement(JsonDocument& job, const std::string& pointer
     }
     const laboratory::Applicability verdict = laboratory::applicability(*record, *use);
     note_day(*record, use->date);
-    facts_.uses.push_back({record->id, input, word_of(verdict.answer), verdict.because});
+    facts_.uses.push_back({record->id, input, word_of(verdict.answer), verdict.because, verdict.is_of_validity});
     note_use(record->id);
     if (!is_point) {
         inputs_of_[record->id].push_back(input);
