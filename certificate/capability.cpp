@@ -10,6 +10,7 @@
 #include "certificate/capability_equation.h"
 #include "gum/argument_check.h"
 #include "gum/quantity/diagnostic.h"
+#include "gum/quantity/unit.h"
 #include "text/numbers.h"
 
 namespace gumcert::certificate {
@@ -90,10 +91,23 @@ struct CapabilityEvaluator::Prepared {
     Capability capability;
     std::optional<gum::EquationSystem> equation;
 
+    [[nodiscard]] CapabilityAt of_share(double value) const;
     [[nodiscard]] CapabilityAt of_table(double value) const;
     [[nodiscard]] CapabilityAt of_matrix(double row, double column) const;
     [[nodiscard]] CapabilityAt of_function(const Eigen::VectorXd& arguments) const;
 };
+
+CapabilityAt CapabilityEvaluator::Prepared::of_share(double value) const {
+    const gum::Unit of = gum::Unit::parse(capability.arguments[0].unit);
+    const gum::Unit unit = gum::Unit::parse(capability.unit);
+    const double whole = unit.difference_from_si(of.difference_to_si(std::abs(value)));
+    const double U = capability.U + (capability.percent_of_value ? *capability.percent_of_value / 100.0 * whole
+                                                                 : *capability.ppm_of_value / 1e6 * whole);
+    if (U > 0.0) {
+        return {U, ""};
+    }
+    return {std::nullopt, "the capability is a share of " + capability.arguments[0].name + ", which is 0 here"};
+}
 
 CapabilityAt CapabilityEvaluator::Prepared::of_table(double value) const {
     const std::vector<double> at = places(capability.points);
@@ -177,7 +191,7 @@ CapabilityAt CapabilityEvaluator::at(const std::vector<ArgumentValue>& arguments
         values(static_cast<Eigen::Index>(i)) = found->value;
     }
     if (capability.form == "value") {
-        return {capability.U, ""};
+        return capability.arguments.empty() ? CapabilityAt{capability.U, ""} : prepared_->of_share(values(0));
     }
     if (capability.form == "function") {
         return prepared_->of_function(values);

@@ -28,13 +28,15 @@ struct CapabilityPoint {
 };
 
 struct Capability {
-    /// "value": one U over the whole range. "range": two ends, linear between them. "function": an expression of the
+    /// "value": one U over the whole range, or with a share of the one argument ("2 µV + 10 ppm of the value"). "range": two ends, linear between them. "function": an expression of the
     /// arguments, where Q[a, b*L] means sqrt(a^2 + (b*L)^2). "table": points of one argument; the digitised curve of a
     /// graph is one. "matrix": a table of two.
     std::string form = {};
-    std::string unit = {};                           ///< of U, UDUNITS-2
-    double U = 0.0;                                  ///< form "value"
-    std::vector<CapabilityArgument> arguments = {};  ///< none for "value"; one for "range", "table"; two for "matrix"
+    std::string unit = {};                                           ///< of U, UDUNITS-2
+    double U = 0.0;                                                  ///< form "value"; may be 0 beside a share
+    std::optional<double> percent_of_value = {}, ppm_of_value = {};  ///< form "value": added to U; one of the two
+    /// None for "value", one where it has a share; one for "range", "table"; two for "matrix"
+    std::vector<CapabilityArgument> arguments = {};
     /// form "function", written as scopes are: "0.5 + 0.7*L" with U in um and L in m. Arguments and U are plain numbers
     /// there, in the units that they state; a number in the text carries its unit silently, so none can be checked. An
     /// angle in a function is L*rad: sin(L*rad)

@@ -47,6 +47,7 @@ private:
     void rising(const std::string& key, double before, double value);
     void lookup();
     void of_other_forms();
+    void value();
     void points(std::size_t least, std::size_t most);
     void matrix();
     void function();
@@ -125,11 +126,44 @@ void Check::of_other_forms() {
         }
     };
     refuse(c_.U != 0.0, c_.form == "value", "/U");
+    refuse(c_.percent_of_value.has_value(), c_.form == "value", "/percent_of_value");
+    refuse(c_.ppm_of_value.has_value(), c_.form == "value", "/ppm_of_value");
     refuse(!c_.expression.empty(), c_.form == "function", "/expression");
     refuse(!c_.points.empty(), c_.form == "range" || c_.form == "table", "/points");
     refuse(!c_.rows.empty(), c_.form == "matrix", "/rows");
     refuse(!c_.columns.empty(), c_.form == "matrix", "/columns");
     refuse(!c_.matrix.empty(), c_.form == "matrix", "/matrix");
+}
+
+void Check::value() {
+    const bool has_share = c_.percent_of_value || c_.ppm_of_value;
+    arguments(has_share ? 1 : 0, has_share ? 1 : 0);
+    if (!has_share || c_.U != 0.0) {
+        U("/U", c_.U);
+    }
+    if (!has_share) {
+        return;
+    }
+    if (c_.percent_of_value && c_.ppm_of_value) {
+        say("/ppm_of_value", "a share in % and one in ppm", "a share of the value is stated once",
+            "Keep one of the two.");
+    }
+    const double share = c_.ppm_of_value ? *c_.ppm_of_value : *c_.percent_of_value;
+    if (!(std::isfinite(share) && share > 0.0)) {
+        say(c_.ppm_of_value ? "/ppm_of_value" : "/percent_of_value", "a share of " + text::shortest(share),
+            "a capability is a finite uncertainty greater than 0", "State the share of the scope.");
+    }
+    if (!problems_.empty()) {
+        return;  // units and arguments that are in order
+    }
+    const gum::Unit of = gum::Unit::parse(c_.arguments[0].unit);
+    if (!(of.dimension() == gum::Unit::parse(c_.unit).dimension()) || of.is_celsius_temperature() ||
+        of.dimension() == gum::Unit::parse("dB").dimension()) {
+        say("/arguments/0/unit",
+            "a share of a value in \"" + c_.arguments[0].unit + "\" for a capability in \"" + c_.unit + "\"",
+            "U and the value of which it has a share are of one kind, and neither a Celsius temperature nor a level",
+            "Correct one of the units, or state a function.");
+    }
 }
 
 void Check::points(std::size_t least, std::size_t most) {
@@ -235,8 +269,7 @@ std::vector<CapabilityProblem> Check::run() {
     lookup();
     of_other_forms();
     if (c_.form == "value") {
-        arguments(0, 0);
-        U("/U", c_.U);
+        value();
     } else if (c_.form == "range") {
         arguments(1, 1);
         points(2, 2);

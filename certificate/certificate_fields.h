@@ -60,6 +60,8 @@ void describe(Archive& a, Struct& r) {
     a.needed("form", r.form, {"value", "range", "function", "table", "matrix"});
     a.needed("unit", r.unit, TextForm::unit);
     a("U", r.U);
+    a.stated("percent_of_value", r.percent_of_value, NumberRule::positive);
+    a.stated("ppm_of_value", r.ppm_of_value, NumberRule::positive);
     a("arguments", r.arguments);
     a("expression", r.expression, TextForm::text);
     a("points", r.points);

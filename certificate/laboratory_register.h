@@ -20,6 +20,8 @@ struct LaboratoryRegister {
         std::string standard, input;
         std::string answer;   ///< whether it is applicable: "yes", "no", "unknown"
         std::string because;  ///< English, without a full stop
+        /// Whether the reason is when its calibration is valid, which the dates of its row may show as well.
+        bool is_of_validity = false;
     };
     struct Signatory {
         std::string name, from, to;        ///< first and last day; "": no limit

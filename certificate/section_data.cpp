@@ -32,12 +32,12 @@ bool states_nothing(const Method& method) {
            method.description.empty() && method.standard.empty() && method.deviations.empty();
 }
 
-bool is_same(const Item& a, const Item& b) {
+}  // namespace
+
+bool is_same_item(const Item& a, const Item& b) {
     return a.description == b.description && a.manufacturer == b.manufacturer && a.type == b.type &&
            a.serial_number == b.serial_number && a.identification == b.identification;
 }
-
-}  // namespace
 
 StatedBySections stated_by_sections(const CertificateData& data, const std::vector<CertifiedTable>& tables) {
     const auto each_states = [&](const auto& states) {
@@ -66,7 +66,7 @@ std::vector<const Item*> items_of(const CertificateData& data) {
     for (const SectionData& section : data.sections) {
         // Several sections may be of one item.
         if (section.item && std::none_of(items.begin(), items.end(),
-                                         [&](const Item* known) { return is_same(*known, *section.item); })) {
+                                         [&](const Item* known) { return is_same_item(*known, *section.item); })) {
             items.push_back(&*section.item);
         }
     }

@@ -25,6 +25,8 @@ struct StatedBySections {
 /// What the results are of: the item of the certificate, where it states one, then those of the sections, each
 /// once.
 [[nodiscard]] std::vector<const Item*> items_of(const CertificateData& data);
+/// Whether two sections are about one item: description, manufacturer, type and numbers are the same.
+[[nodiscard]] bool is_same_item(const Item& a, const Item& b);
 /// Whether sentences speak of the items, and not of the item.
 [[nodiscard]] bool has_several_items(const CertificateData& data);
 

@@ -5,10 +5,12 @@
 #include <utility>
 #include <vector>
 
+#include "certificate/section_data.h"
 #include "encoding/file_bytes.h"
 #include "evaluation/read_file.h"
 #include "gum/quantity/diagnostic.h"
 #include "jobs/certificate/certificate_statement.h"
+#include "reports/forms_of_number.h"
 #include "text/lists.h"
 
 namespace gumcert::evaluation {
@@ -30,6 +32,23 @@ std::string known_profiles(const fs::path& folder) {
     return names.empty() ? "none" : text::listed(names);
 }
 
+/// The sentences of a profile for one item or for several: "{items?item|items}".
+certificate::Profile with_forms_of_items(certificate::Profile profile, bool several) {
+    const auto put = [&](std::string& text) {
+        const std::vector<std::string> names = reports::names_with_forms(text);
+        if (names == std::vector<std::string>{"items"}) {  // else braces of a person
+            text = reports::with_forms_of(text, [&](const std::string&) { return !several; });
+        }
+    };
+    for (certificate::LocalisedText& sentence : profile.first_page_sentences) {
+        put(sentence.plain);
+        for (auto& [language, text] : sentence.by_language) {
+            put(text);
+        }
+    }
+    return profile;
+}
+
 /// A certificate names its profile: a file of the laboratory that is called as one of the program is the same as it.
 void refuse_a_name_of_the_program(const certificate::Profile& own, const fs::path& folder) {
     const fs::path file = folder / (own.id + ".json");
@@ -37,7 +56,9 @@ void refuse_a_name_of_the_program(const certificate::Profile& own, const fs::pat
     if (!is_file_stem(own.id) || !fs::exists(file, error)) {
         return;
     }
-    if (!(jobs::parse_profile(read_file(file), file.filename().string()) == own)) {
+    // A copy in which the forms of one item are put is the same, as releases without these forms had it.
+    if (!(with_forms_of_items(jobs::parse_profile(read_file(file), file.filename().string()), false) ==
+          with_forms_of_items(own, false))) {
         throw gum::InputError(
             gum::Diagnostic{.code = "GC-CERT-0301",
                             .where = "certificate/profile",
@@ -67,7 +88,7 @@ certificate::Profile certificate_profile(const certificate::CertificateData& dat
     if (data.own_profile) {
         refuse_terms_of_its_own(*data.own_profile);
         refuse_a_name_of_the_program(*data.own_profile, folder);
-        return *data.own_profile;
+        return with_forms_of_items(*data.own_profile, certificate::has_several_items(data));
     }
     const fs::path file = folder / (data.profile + ".json");
     std::error_code error;
@@ -78,7 +99,8 @@ certificate::Profile certificate_profile(const certificate::CertificateData& dat
                                               .rule = "the profiles are " + known_profiles(folder),
                                               .action = "name one of them, or a file of your own beside the job"});
     }
-    return jobs::parse_profile(read_file(file), file.filename().string());
+    return with_forms_of_items(jobs::parse_profile(read_file(file), file.filename().string()),
+                               certificate::has_several_items(data));
 }
 
 }  // namespace gumcert::evaluation

@@ -11,10 +11,12 @@
 #include <utility>
 #include <vector>
 
+#include "gum/quantity/unit.h"
 #include "json/readable_json.h"
 #include "reports/dcc/dcc_reader.h"
 #include "reports/printable_text.h"
 #include "text/lists.h"
+#include "text/numbers.h"
 
 namespace gumcert::imports {
 
@@ -28,6 +30,7 @@ using reports::ImportedQuantity;
 struct NominalValue {
     double value = 0.0;
     std::string unit;
+    bool is_reference = false;  ///< the value of the reference, and no nominal value
 };
 
 /// Of the rows of all tables.
@@ -40,7 +43,7 @@ public:
                 const char* const end = q.value.data() + q.value.size();
                 if (q.table > 0 && q.row && q.role == "result" && !q.unit.empty() && has_type(q, k_types[type]) &&
                     std::from_chars(q.value.data(), end, value).ptr == end) {
-                    values_[{q.table, *q.row}].push_back({&q, type, {value, q.unit}});
+                    values_[{q.table, *q.row}].push_back({&q, type, {value, q.unit, type == k_reference}});
                     if (!seen_[{q.table, q.column}].insert(value).second) {
                         repeated_.insert({q.table, q.column});
                     }
@@ -88,7 +91,7 @@ private:
 
     static constexpr std::array<std::string_view, 3> k_types{"basic_nominalValue", "basic_referenceValue",
                                                              "gumcert_setting"};
-    static constexpr std::size_t k_set = 2;
+    static constexpr std::size_t k_reference = 1, k_set = 2;
     struct Entry {
         const ImportedQuantity* quantity = nullptr;
         std::size_t type = 0;
@@ -196,6 +199,27 @@ ordered_json line_of(const std::string& name, const std::string& range, const St
     return line;
 }
 
+/// Where lines have the values of a reference in place of nominal values: a use at 5 V finds no line at 5.00005 V.
+void add_references(const std::vector<StandardLine>& lines, const std::string& file,
+                    std::vector<gum::Diagnostic>& remarks) {
+    std::vector<std::string> values;
+    for (const StandardLine& line : lines) {
+        if (line.nominal && line.nominal->is_reference) {
+            const std::string unit = gum::unit_for_people(line.nominal->unit);
+            values.push_back(text::shortest_plain(line.nominal->value) + (unit.empty() ? "" : " " + unit));
+        }
+    }
+    if (!values.empty()) {
+        remarks.push_back({.code = "GC-LAB-0023",
+                           .where = file,
+                           .what = "the certificate has no nominal values, and lines have those of the reference: " +
+                                   text::listed(values, 8),
+                           .rule = "an input finds a line by its nominal value, \"at\"",
+                           .action = "state in \"nominal\" at which value each of them is used",
+                           .severity = gum::Severity::note});
+    }
+}
+
 void set_if_there(ordered_json& object, const char* key, const std::string& text) {
     if (!text.empty()) {
         object[key] = reports::printable(text);
@@ -255,6 +279,9 @@ ImportedJob import_standard(std::string_view bytes, const std::string& file, con
                                 {"description", certificate.item.empty() ? id : reports::printable(certificate.item)},
                                 {"calibrations", ordered_json::array({std::move(calibration)})}};
     imported.job = gumcert::json::readable_json(standard) + "\n";
+    // Of the inputs of a job: the register holds lines of one certificate, and who uses two of them is told (GC-LAB-0109).
+    std::erase_if(imported.remarks, [](const gum::Diagnostic& remark) { return remark.code == "GC-DCC-0032"; });
+    add_references(results, file, imported.remarks);
     if (!before.empty()) {
         imported.remarks.push_back(
             {.code = "GC-LAB-0022",

@@ -13,6 +13,7 @@ namespace gumcert::imports {
 /// names that import_certificate() gives to inputs; the rows of a table are lines of one quantity with the nominal value of the row
 /// (else the value of the reference), where these differ. No quantity has lines of two tables: where several tables have a
 /// quantity, it is called by its table in each of them, and `range` is the heading of the table. Results before an adjustment are left out, and told (GC-LAB-0022).
+/// Values of the reference in place of nominal values are told (GC-LAB-0023).
 ///
 /// The file has no `drift`: that is not on a certificate, and the reader of the register refuses it until the laboratory
 /// has stated one.

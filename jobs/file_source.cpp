@@ -46,6 +46,10 @@ Beginning beginning_of(std::filesystem::path folder, const std::filesystem::path
 
 }  // namespace
 
+std::vector<std::string> FileSource::json_files(const std::string& /*folder*/) const {
+    return {};
+}
+
 std::string DiskFileSource::read(const std::string& name) const {
     const bool is_of_laboratory = has_laboratory() && name.starts_with(k_laboratory_prefix);
     const auto [folder, path] = is_of_laboratory ? beginning_of(laboratory_, name.substr(k_laboratory_prefix.size()))
@@ -64,6 +68,14 @@ std::string DiskFileSource::read(const std::string& name) const {
     return std::move(file.bytes);
 }
 
+std::vector<std::string> DiskFileSource::json_files(const std::string& folder) const {
+    const bool is_of_laboratory = has_laboratory() && folder.starts_with(k_laboratory_prefix);
+    const auto [beginning, path] = is_of_laboratory
+                                       ? beginning_of(laboratory_, folder.substr(k_laboratory_prefix.size()))
+                                       : beginning_of(folder_, folder);
+    return encoding::json_files_in(beginning / path);
+}
+
 std::string MemoryFileSource::read(const std::string& name) const {
     const auto found = files_.find(name);
     if (found == files_.end()) {
@@ -75,6 +87,18 @@ std::string MemoryFileSource::read(const std::string& name) const {
 bool MemoryFileSource::has_laboratory() const {
     const auto first = files_.lower_bound(std::string(k_laboratory_prefix));
     return first != files_.end() && first->first.starts_with(k_laboratory_prefix);
+}
+
+std::vector<std::string> MemoryFileSource::json_files(const std::string& folder) const {
+    constexpr std::string_view k_extension = ".json";
+    std::vector<std::string> names;
+    for (auto file = files_.lower_bound(folder); file != files_.end() && file->first.starts_with(folder); ++file) {
+        const std::string name = file->first.substr(folder.size());
+        if (name.ends_with(k_extension) && name.find('/') == std::string::npos) {
+            names.push_back(name.substr(0, name.size() - k_extension.size()));
+        }
+    }
+    return names;
 }
 
 std::string ReadOnceSource::read(const std::string& name) const {

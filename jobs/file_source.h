@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace gumcert::jobs {
 
@@ -28,6 +29,9 @@ public:
     /// Whether there are files of a laboratory, with k_laboratory_prefix before their names; they go before the folder
     /// that a job names.
     [[nodiscard]] virtual bool has_laboratory() const { return false; }
+    /// Names without ".json" of the JSON files in a folder, in their order, for messages; none where nobody can say.
+    /// \param folder  as the job would name a file in it: "laboratory:/standards/"
+    [[nodiscard]] virtual std::vector<std::string> json_files(const std::string& folder) const;
 };
 
 /// Files of one folder of the disk, and of folders that a name leads to by `..`. A name shows where it leads: where `..` goes
@@ -46,6 +50,7 @@ public:
         : folder_(std::move(folder)), laboratory_(std::move(laboratory)) {}
     [[nodiscard]] std::string read(const std::string& name) const override;
     [[nodiscard]] bool has_laboratory() const override { return !laboratory_.empty(); }
+    [[nodiscard]] std::vector<std::string> json_files(const std::string& folder) const override;
 
 private:
     std::filesystem::path folder_, laboratory_;
@@ -59,6 +64,7 @@ public:
     [[nodiscard]] std::string read(const std::string& name) const override;
     /// Where one of the names has the prefix: a record holds what was read of the laboratory under these names.
     [[nodiscard]] bool has_laboratory() const override;
+    [[nodiscard]] std::vector<std::string> json_files(const std::string& folder) const override;
 
 private:
     std::map<std::string, std::string> files_;
@@ -71,6 +77,9 @@ public:
     explicit ReadOnceSource(const FileSource& source) : source_(source) {}
     [[nodiscard]] std::string read(const std::string& name) const override;
     [[nodiscard]] bool has_laboratory() const override { return source_.has_laboratory(); }
+    [[nodiscard]] std::vector<std::string> json_files(const std::string& folder) const override {
+        return source_.json_files(folder);
+    }
 
 private:
     const FileSource& source_;

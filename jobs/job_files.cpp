@@ -89,6 +89,10 @@ std::optional<JobFiles::File> JobFiles::open_if_there(const std::string& name_in
     return peek(name_in_job) ? open(name_in_job) : std::nullopt;
 }
 
+std::vector<std::string> JobFiles::json_files(const std::string& folder) const {
+    return source_.json_files(name_in_source(folder));
+}
+
 std::optional<std::string> JobFiles::laboratory() const {
     return source_.has_laboratory() ? std::optional<std::string>(k_laboratory_prefix) : std::nullopt;
 }

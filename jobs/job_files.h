@@ -36,6 +36,8 @@ public:
     [[nodiscard]] std::optional<File> open_if_there(const std::string& name);
     /// The bytes of a file that is opened later, for what has to be known before; nothing is noted.
     [[nodiscard]] std::optional<std::string> peek(const std::string& name) const;
+    /// Names without ".json" of the JSON files in a folder, "lab/standards/", for messages; none where nobody can say.
+    [[nodiscard]] std::vector<std::string> json_files(const std::string& folder) const;
     /// What stands before the names of files of the laboratory, where the caller named its folder; else nothing.
     [[nodiscard]] std::optional<std::string> laboratory() const;
 

@@ -16,10 +16,10 @@ namespace {
 constexpr double k_same_value = 1e-9;
 
 /// Keeps the first "no", else the first "unknown".
-void put(Applicability& verdict, Answer answer, std::string because) {
+void put(Applicability& verdict, Answer answer, std::string because, bool is_of_validity = false) {
     // "No" outweighs "unknown": what is refuted is not made open again by what nobody knows.
     if (verdict.answer == Answer::yes || (verdict.answer == Answer::unknown && answer == Answer::no)) {
-        verdict = {answer, std::move(because)};
+        verdict = {answer, std::move(because), is_of_validity};
     }
 }
 
@@ -69,7 +69,7 @@ bool narrow(Results& results, std::string CalibrationResult::*member, const std:
 void by_date(const StandardRecord& record, const StandardUse& use, Candidates& found) {
     found.calibration = calibration_on(record, use.date);
     if (found.calibration == nullptr) {
-        put(found.verdict, Answer::no, "it was not calibrated before " + use.date);
+        put(found.verdict, Answer::no, "it was not calibrated before " + use.date, true);
         return;
     }
     if (use.date.empty()) {
@@ -79,11 +79,12 @@ void by_date(const StandardRecord& record, const StandardUse& use, Candidates& f
     const std::string& valid_to = found.calibration->valid_to;
     const std::string last_day = valid_to.empty() ? calibration_outlook(record, use.date).last_day : valid_to;
     if (last_day.empty()) {
-        put(found.verdict, Answer::unknown, "the register does not say until when its calibration is valid");
+        put(found.verdict, Answer::unknown, "the register does not say until when its calibration is valid", true);
     } else if (certificate::is_after(use.date, last_day)) {
         put(found.verdict, Answer::no,
             (valid_to.empty() ? "by its plan its calibration was due on " : "its calibration was valid to ") +
-                last_day + ", and it was used on " + use.date);
+                last_day + ", and it was used on " + use.date,
+            true);
     }
 }
 

@@ -20,8 +20,12 @@ enum class Answer { yes, no, unknown };
 struct Applicability {
     Answer answer = Answer::yes;
     std::string because;  ///< English, without a full stop; "" for yes
+    /// Whether the reason is when the calibration is valid, which dates of a certificate show as well.
+    bool is_of_validity = false;
 
-    friend bool operator==(const Applicability&, const Applicability&) = default;
+    friend bool operator==(const Applicability& a, const Applicability& b) {
+        return a.answer == b.answer && a.because == b.because;
+    }
 };
 
 /// Lines of a certificate that a use may mean, and what speaks against it.

@@ -20,10 +20,11 @@ struct CalibrationResult {
     std::string nominal_unit;           ///< "": unit
     std::optional<double> low, high;    ///< values between which the line holds, both or none, in nominal_unit
     double value = 0.0;
-    std::string unit;            ///< of value and U (of a Celsius temperature, U is a difference)
-    double U = 0.0;              ///< expanded uncertainty
-    std::optional<double> k, p;  ///< coverage factor of U, or its coverage probability; one at least
-    std::optional<double> nu;    ///< degrees of freedom; none: infinite
+    std::string unit;                  ///< of value and U (of a Celsius temperature, U is a difference)
+    double U = 0.0;                    ///< expanded uncertainty
+    std::optional<double> relative_U;  ///< as the certificate states it, where it does: U is this share of |value|
+    std::optional<double> k, p;        ///< coverage factor of U, or its coverage probability; one at least
+    std::optional<double> nu;          ///< degrees of freedom; none: infinite
     friend bool operator==(const CalibrationResult&, const CalibrationResult&) = default;
 };
 

@@ -64,21 +64,31 @@ std::string without_numbers(const std::string& sentence) {
     return out;
 }
 
-/// "E, point 3", "E, points 1, 2, 5", "E, angles 0, 30 and 12 more"; "E" of a table without points. Points that have a
+constexpr std::size_t k_most_named = 20;
+
+/// Results that have one thing in common, and where.
+struct Places {
+    std::vector<std::string> results;
+    std::string argument;             ///< of their tables, "point"; "": none
+    std::vector<std::string> points;  ///< of each of the results
+};
+
+/// The name of the argument of a row, "point", and what the row has there; two empty texts where the table has none.
+std::pair<std::string, std::string> point_of(const FoundInRow& one) {
+    const auto& argument = one.table->argument;
+    return argument && one.row < argument->printed.size() ? std::pair(argument->name, argument->printed[one.row])
+                                                          : std::pair<std::string, std::string>();
+}
+
+/// "E, point 3", "E, F, points 1, 2, 5", "E, angles 0, 30 and 12 more"; "E" of tables without points. Points that have a
 /// comma in their names stand between semicolons.
-std::string place_of_rows(const CertifiedTable& table, const CertifiedColumn& column,
-                          const std::vector<std::size_t>& rows) {
-    constexpr std::size_t k_most_named = 20;
-    std::vector<std::string> points;
-    for (const std::size_t row : rows) {
-        if (table.argument && row < table.argument->printed.size()) {
-            points.push_back(table.argument->printed[row]);
-        }
-    }
+std::string in_words(const Places& places) {
+    std::string text = text::listed(places.results, k_most_named);
+    const std::vector<std::string>& points = places.points;
     if (points.empty()) {
-        return column.result;
+        return text;
     }
-    std::string text = column.result + ", " + table.argument->name + (points.size() > 1 ? "s " : " ");
+    text += ", " + places.argument + (points.size() > 1 ? "s " : " ");
     if (std::ranges::none_of(points, [](const std::string& p) { return p.find(", ") != std::string::npos; })) {
         return text + text::listed(points, k_most_named);
     }
@@ -89,16 +99,79 @@ std::string place_of_rows(const CertifiedTable& table, const CertifiedColumn& co
     return points.size() > named ? text + " and " + std::to_string(points.size() - named) + " more" : text;
 }
 
+/// Findings of one cause by result, a result that stands in several tables once; results with the same points together.
+std::vector<Places> places_of(const std::vector<const FoundInRow*>& found) {
+    std::vector<Places> of_results;
+    for (const FoundInRow* one : found) {
+        const auto [argument, point] = point_of(*one);
+        auto known = std::ranges::find_if(of_results, [&argument = argument, one](const Places& p) {
+            return p.argument == argument && p.results.front() == one->column->result;
+        });
+        if (known == of_results.end()) {
+            known = of_results.insert(known, {.results = {one->column->result}, .argument = argument, .points = {}});
+        }
+        if (!argument.empty() && std::ranges::find(known->points, point) == known->points.end()) {
+            known->points.push_back(point);
+        }
+    }
+    std::vector<Places> places;
+    for (Places& one : of_results) {
+        const auto alike = std::ranges::find_if(
+            places, [&](const Places& p) { return p.argument == one.argument && p.points == one.points; });
+        if (alike == places.end()) {
+            places.push_back(std::move(one));
+        } else {
+            alike->results.push_back(one.results.front());
+        }
+    }
+    return places;
+}
+
+/// Where findings of one cause are. "E[1], F[3] and 2 more" where results have it at points of their own: as jobs name them.
+std::string place_of(const std::vector<const FoundInRow*>& found) {
+    const std::vector<Places> places = places_of(found);
+    if (places.size() == 1) {
+        return in_words(places.front());
+    }
+    std::vector<std::string> names;
+    for (const Places& one : places) {
+        for (const std::string& result : one.results) {
+            if (one.points.empty()) {
+                names.push_back(result);
+            }
+            for (const std::string& point : one.points) {
+                names.push_back(result + "[" + point + "]");
+            }
+        }
+    }
+    return text::listed(names, k_most_named);
+}
+
+/// "; the numbers are those of point 3, the worst of 5": of several results with the name of its own.
+std::string whose_numbers(const std::vector<const FoundInRow*>& found, const FoundInRow& worst) {
+    const auto [argument, point] = point_of(worst);
+    const bool of_one_result =
+        std::ranges::all_of(found, [&](const FoundInRow* one) { return one->column->result == worst.column->result; });
+    if (of_one_result && argument.empty()) {
+        return {};
+    }
+    std::string text = "; the numbers are those of ";
+    text += of_one_result ? "" : text::in_quotes(worst.column->result) + (argument.empty() ? "" : " at ");
+    text += argument.empty() ? "" : argument + " " + point;
+    const bool is_worst =
+        std::ranges::any_of(found, [&](const FoundInRow* one) { return one->badness < worst.badness; });
+    return is_worst ? text + ", the worst of " + std::to_string(found.size()) : text;
+}
+
 }  // namespace
 
-void FindingList::add_by_cause(const CertifiedTable& table, const CertifiedColumn& column,
-                               const std::vector<FoundInRow>& of_rows) {
+void FindingList::add_by_cause(const std::vector<FoundInRow>& of_values) {
     struct Cause {
         std::string words;
         std::vector<const FoundInRow*> found;
     };
     std::vector<Cause> causes;
-    for (const FoundInRow& one : of_rows) {
+    for (const FoundInRow& one : of_values) {
         const Finding& f = one.finding;
         const std::string words = f.id + "\n" + std::to_string(static_cast<int>(f.severity)) + "\n" +
                                   without_numbers(f.what) + "\n" + f.action;
@@ -107,16 +180,12 @@ void FindingList::add_by_cause(const CertifiedTable& table, const CertifiedColum
             .found.push_back(&one);
     }
     for (const Cause& cause : causes) {
-        const FoundInRow& first = *cause.found.front();
-        std::vector<std::size_t> rows;
-        std::ranges::transform(cause.found, std::back_inserter(rows), &FoundInRow::row);
-        Finding finding = first.finding;
-        finding.where = place_of_rows(table, column, rows);
-        const bool has_point = table.argument && first.row < table.argument->printed.size();
-        if (has_point &&
-            std::ranges::any_of(cause.found, [&](const auto* one) { return one->finding.what != finding.what; })) {
-            finding.what +=
-                "; the numbers are those of " + table.argument->name + " " + table.argument->printed[first.row];
+        const FoundInRow& worst =
+            **std::ranges::max_element(cause.found, {}, &FoundInRow::badness);  // the first of equals
+        Finding finding = worst.finding;
+        finding.where = place_of(cause.found);
+        if (std::ranges::any_of(cause.found, [&](const auto* one) { return one->finding.what != finding.what; })) {
+            finding.what += whose_numbers(cause.found, worst);
         }
         findings_.push_back(std::move(finding));
     }
@@ -154,6 +223,16 @@ FindingSeverity severity_of_omission(const std::string& clause) {
 
 const std::string& last_day(const Dates& dates) {
     return dates.performed_to.empty() ? dates.performed_from : dates.performed_to;
+}
+
+bool is_authorised_by_no_signatory(const CertificateData& data) {
+    const std::optional<Person>& person = data.persons.authorised_by;
+    if (data.status != "accredited" || !data.accreditation || !person || !is_name(person->name)) {
+        return false;
+    }
+    const std::vector<std::string>& all = data.accreditation->signatories;
+    return !all.empty() &&
+           std::ranges::none_of(all, [&](const std::string& name) { return is_same_name(name, person->name); });
 }
 
 bool names_a_result(const Certificate& certificate, const std::vector<std::string>& names) {

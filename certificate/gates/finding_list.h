@@ -9,10 +9,13 @@
 
 namespace gumcert::certificate {
 
-/// What is wrong with one value of a column.
+/// What is wrong with one value of a column. Table and column live as long as this.
 struct FoundInRow {
+    const CertifiedTable* table = nullptr;
+    const CertifiedColumn* column = nullptr;
     std::size_t row = 0;
-    Finding finding;  ///< its place is not read
+    Finding finding;       ///< its place is not read
+    double badness = 0.0;  ///< among findings of one cause; the larger, the worse
 };
 
 /// Collects the findings of a gate.
@@ -40,10 +43,9 @@ public:
 
     void append(std::vector<Finding> findings);
 
-    /// What was found of the values of one column, value by value: one finding a cause, which lists its points. Findings
-    /// have one cause where they say the same but for their numbers; those of the first one are told.
-    void add_by_cause(const CertifiedTable& table, const CertifiedColumn& column,
-                      const std::vector<FoundInRow>& of_rows);
+    /// What was found of values, one by one: one finding a cause, which lists its results and points. Findings have one
+    /// cause where they say the same but for their numbers; those of the worst are told, and how many there are.
+    void add_by_cause(const std::vector<FoundInRow>& of_values);
 
     /// Of findings that say the same of many points, the gravest, and the first of equals. None where there are none.
     /// \return whether there was one
@@ -67,6 +69,12 @@ private:
 
 /// The last day of the performance.
 [[nodiscard]] const std::string& last_day(const Dates& dates);
+
+/// What the dates of a standard that the certificate lists say against its use: T01, T02, T05.
+void validity_of_standard(FindingList& found, const StandardUsed& standard, std::size_t i, const Dates& dates);
+
+/// Whether an accredited certificate is authorised by somebody who is none of the signatories that it names.
+[[nodiscard]] bool is_authorised_by_no_signatory(const CertificateData& data);
 
 /// Whether a result of the certificate has one of the names of a scope, a specification …
 [[nodiscard]] bool names_a_result(const Certificate& certificate, const std::vector<std::string>& names);

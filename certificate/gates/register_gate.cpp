@@ -27,7 +27,28 @@ void contradictions(FindingList& found, const LaboratoryRegister& registered) {
     }
 }
 
-void standards(FindingList& found, const LaboratoryRegister& registered) {
+/// The gravest that the dates of the row of a standard say against its use; nothing where they say nothing, or the
+/// certificate does not list it.
+std::optional<FindingSeverity> told_of_validity(const CertificateData& data, const std::string& standard) {
+    FindingList of_rows(data);
+    for (std::size_t i = 0; i < data.standards.size(); ++i) {
+        if (data.standards[i].identification == standard) {
+            validity_of_standard(of_rows, data.standards[i], i, data.dates);
+        }
+    }
+    const std::vector<Finding> told = of_rows.take();
+    const auto gravest = std::ranges::max_element(told, {}, &Finding::severity);
+    return gravest == told.end() ? std::nullopt : std::optional(gravest->severity);
+}
+
+/// Whether the row of a standard says that it is valid to a day that the work exceeds.
+bool is_told_to_end_on(const CertificateData& data, const std::string& standard, const std::string& day) {
+    return std::ranges::any_of(data.standards, [&](const StandardUsed& s) {
+        return s.identification == standard && s.valid_to == day && is_after(last_day(data.dates), day);
+    });
+}
+
+void standards(FindingList& found, const CertificateData& data, const LaboratoryRegister& registered) {
     std::map<std::pair<std::string, std::string>, std::vector<std::string>> inputs;  // by standard and reason
     for (const LaboratoryRegister::Use& use : registered.uses) {
         std::vector<std::string>& names = inputs[{use.standard, use.because}];
@@ -45,16 +66,23 @@ void standards(FindingList& found, const LaboratoryRegister& registered) {
         // "No" is known to be wrong. Where nobody knows, the issue is not blocked, but the certificate does not stay
         // silent.
         const bool is_refuted = use.answer == "no";
-        found.add(is_refuted ? FindingSeverity::critical : FindingSeverity::major, "T11", iso_17025("6.4"),
-                  names.size() == 1 ? names.front() : "inputs " + text::listed(names),
-                  std::string(is_refuted ? "the standard \"" + use.standard + "\" cannot be used here: "
-                                         : "it is not known whether the standard \"" + use.standard +
-                                               "\" can be used here: ") +
-                      use.because,
-                  is_refuted ? "Use a standard that is calibrated for this."
-                             : "State it in the register, or where the input uses the standard.");
+        const FindingSeverity severity = is_refuted ? FindingSeverity::critical : FindingSeverity::major;
+        if (use.is_of_validity && told_of_validity(data, use.standard) >= severity) {
+            continue;  // the dates of its row tell it
+        }
+        found.add(
+            severity, "T11", iso_17025("6.4"), names.size() == 1 ? names.front() : "inputs " + text::listed(names),
+            std::string(is_refuted
+                            ? "the standard \"" + use.standard + "\" cannot be used here: "
+                            : "it is not known whether the standard \"" + use.standard + "\" can be used here: ") +
+                use.because,
+            is_refuted ? "Use a standard that is calibrated for this."
+                       : "State it in the register, or where the input uses the standard.");
     }
     for (const LaboratoryRegister::Overdue& one : registered.overdue) {
+        if (is_told_to_end_on(data, one.standard, one.due)) {
+            continue;
+        }
         // Its last day of use may be later: the laboratory has found since that it moves faster (6.4.7).
         found.critical("T14", iso_17025("6.4"), "/standards",
                        "the standard \"" + one.standard + "\" was used on " + one.day +
@@ -87,14 +115,18 @@ void signatory(FindingList& found, const CertificateData& data, const Laboratory
         std::find_if(registered.signatories.begin(), registered.signatories.end(),
                      [&](const LaboratoryRegister::Signatory& s) { return is_same_name(s.name, person->name); });
     if (one == registered.signatories.end()) {
-        refute("it does not name this person");
+        if (!is_authorised_by_no_signatory(data)) {  // told of the signatories of the accreditation else
+            refute("it does not name this person");
+        }
         return;
     }
     const std::string& day = data.dates.authorised.empty() ? data.dates.issued : data.dates.authorised;
-    if (!one->authorises) {
+    if (!one->authorises && !is_authorised_by_no_signatory(data)) {
         refute("the person signs, and does not authorise");
     }
-    if (!day.empty() && !is_within(day, one->from, one->to)) {
+    // The days that a certificate states of a person are held against the work without a register, too.
+    if (!day.empty() && !is_within(day, one->from, one->to) &&
+        is_within(day, person->authorised_from, person->authorised_to)) {
         refute("the authorisation is valid" + (one->from.empty() ? std::string() : " from " + one->from) +
                (one->to.empty() ? std::string() : " to " + one->to) + ", and not on " + day);
     }
@@ -119,7 +151,7 @@ void signatory(FindingList& found, const CertificateData& data, const Laboratory
 std::vector<Finding> register_findings(const CertificateData& data, const LaboratoryRegister& registered) {
     FindingList found(data);
     contradictions(found, registered);
-    standards(found, registered);
+    standards(found, data, registered);
     signatory(found, data, registered);
     return found.take();
 }

@@ -72,40 +72,6 @@ void uncertainty(FindingList& found, const StandardUsed& s, std::size_t i) {
     }
 }
 
-void validity(FindingList& found, const StandardUsed& s, std::size_t i, const Dates& dates) {
-    const auto where = [&](const char* key) { return place_in("/standards", i, key); };
-    const std::string& last = last_day(dates);
-    if (s.calibrated.empty()) {
-        found.critical("R07-4c", iso_17025("7.8.4.1 c"), where("calibrated"),
-                       "the date of the calibration of " + named(s) + " is missing",
-                       "State it: without it nobody can see that the calibration was valid.");
-    }
-    if (is_after(last, s.valid_to)) {
-        found.critical(
-            "T01", iso_17025("6.4"), where("valid_to"),
-            "the calibration of " + named(s) + " was valid to " + s.valid_to + ", and the work ended on " + last,
-            "Use a standard with a valid calibration, or correct the dates.");
-    }
-    if (is_after(s.calibrated, dates.performed_from)) {
-        found.critical(
-            "T02", iso_17025("6.5"), where("calibrated"),
-            named(s) + " was calibrated on " + s.calibrated + ", after the work began on " + dates.performed_from,
-            "State the certificate that was valid during the work.");
-    }
-    if (s.valid_to.empty()) {
-        const bool old = days_between(s.calibrated, last).value_or(0) > k_days_without_recalibration;
-        found.add(old ? FindingSeverity::critical : FindingSeverity::major, "T05", iso_17025("6.4"), where("valid_to"),
-                  "it is not said until when the calibration of " + named(s) + " is valid" +
-                      (old ? ", and it is of " + s.calibrated + ", more than five years before the work" : ""),
-                  "State the day until which the laboratory uses it (\"valid_to\"), or have it calibrated.");
-    } else if (days_between(s.calibrated, s.valid_to).value_or(0) > k_longest_validity_in_days) {
-        found.major("T05", iso_17025("6.4"), where("valid_to"),
-                    "the calibration of " + named(s) + " is to be valid from " + s.calibrated + " to " + s.valid_to +
-                        ", more than ten years",
-                    "Correct the dates, or have it calibrated.");
-    }
-}
-
 struct SameText {
     const char* key;  ///< of the standard
     std::string text, other;
@@ -249,6 +215,40 @@ void against_results(FindingList& found, const Certificate& certificate, const S
 
 }  // namespace
 
+void validity_of_standard(FindingList& found, const StandardUsed& s, std::size_t i, const Dates& dates) {
+    const auto where = [&](const char* key) { return place_in("/standards", i, key); };
+    const std::string& last = last_day(dates);
+    if (s.calibrated.empty()) {
+        found.critical("R07-4c", iso_17025("7.8.4.1 c"), where("calibrated"),
+                       "the date of the calibration of " + named(s) + " is missing",
+                       "State it: without it nobody can see that the calibration was valid.");
+    }
+    if (is_after(last, s.valid_to)) {
+        found.critical(
+            "T01", iso_17025("6.4"), where("valid_to"),
+            "the calibration of " + named(s) + " was valid to " + s.valid_to + ", and the work ended on " + last,
+            "Use a standard with a valid calibration, or correct the dates.");
+    }
+    if (is_after(s.calibrated, dates.performed_from)) {
+        found.critical(
+            "T02", iso_17025("6.5"), where("calibrated"),
+            named(s) + " was calibrated on " + s.calibrated + ", after the work began on " + dates.performed_from,
+            "State the certificate that was valid during the work.");
+    }
+    if (s.valid_to.empty()) {
+        const bool old = days_between(s.calibrated, last).value_or(0) > k_days_without_recalibration;
+        found.add(old ? FindingSeverity::critical : FindingSeverity::major, "T05", iso_17025("6.4"), where("valid_to"),
+                  "it is not said until when the calibration of " + named(s) + " is valid" +
+                      (old ? ", and it is of " + s.calibrated + ", more than five years before the work" : ""),
+                  "State the day until which the laboratory uses it (\"valid_to\"), or have it calibrated.");
+    } else if (days_between(s.calibrated, s.valid_to).value_or(0) > k_longest_validity_in_days) {
+        found.major("T05", iso_17025("6.4"), where("valid_to"),
+                    "the calibration of " + named(s) + " is to be valid from " + s.calibrated + " to " + s.valid_to +
+                        ", more than ten years",
+                    "Correct the dates, or have it calibrated.");
+    }
+}
+
 std::vector<Finding> standard_findings(const Certificate& certificate) {
     const CertificateData& data = certificate.data;
     FindingList found(data);
@@ -261,7 +261,7 @@ std::vector<Finding> standard_findings(const Certificate& certificate) {
         const StandardUsed& s = data.standards[i];
         identity(found, s, i);
         uncertainty(found, s, i);
-        validity(found, s, i, data.dates);
+        validity_of_standard(found, s, i, data.dates);
         independence(found, data, s, i);
         against_results(found, certificate, s, i);
     }

@@ -95,12 +95,9 @@ void accreditation(FindingList& found, const CertificateData& data) {
                         problem.what + ": " + problem.rule, problem.action);
         }
     }
-    const std::optional<Person>& person = data.persons.authorised_by;
-    if (person && is_name(person->name) && !a.signatories.empty() &&
-        std::none_of(a.signatories.begin(), a.signatories.end(),
-                     [&](const std::string& name) { return is_same_name(name, person->name); })) {
+    if (is_authorised_by_no_signatory(data)) {
         found.critical("P03", iso_17025("6.2.6"), "/persons/authorised_by",
-                       person->name + " is not one of the signatories of accredited certificates",
+                       data.persons.authorised_by->name + " is not one of the signatories of accredited certificates",
                        "Let a signatory authorise the certificate.");
     }
 }
@@ -141,27 +138,29 @@ void routes(FindingList& found, const CertificateData& data) {
     }
 }
 
-void capabilities(FindingList& found, const CertifiedTable& table, const CertifiedColumn& column) {
-    std::vector<FoundInRow> of_rows;
+void capabilities(const CertifiedTable& table, const CertifiedColumn& column, std::vector<FoundInRow>& of_values) {
     for (std::size_t row = 0; row < column.values.size(); ++row) {
         const CertifiedValue& value = column.values[row];
-        if (value.scope_entry.empty() || !value.capability || !number_of(value.printed_U)) {
+        const std::optional<double> U = number_of(value.printed_U);
+        if (value.scope_entry.empty() || !value.capability || !U) {
             continue;
         }
         // Compared as printed, because the printed U is what the laboratory states.
         if (is_below_capability(value.printed_U, *value.capability)) {
-            of_rows.push_back(
-                {.row = row,
+            of_values.push_back(
+                {.table = &table,
+                 .column = &column,
+                 .row = row,
                  .finding = {.id = "X01",
                              .clause = k_p14,
                              .severity = FindingSeverity::critical,
                              .where = {},
                              .what = "U is stated as " + value.printed_U + ", smaller than the capability " +
                                      value.printed_capability + " of the scope entry \"" + value.scope_entry + "\"",
-                             .action = "State the capability, or the result as outside of the accreditation."}});
+                             .action = "State the capability, or the result as outside of the accreditation."},
+                 .badness = -*U / *value.capability});
         }
     }
-    found.add_by_cause(table, column, of_rows);
 }
 
 void mixed(FindingList& found, const std::string& result, const Tally& tally, const Profile& profile) {
@@ -184,6 +183,7 @@ void mixed(FindingList& found, const std::string& result, const Tally& tally, co
 
 void scope(FindingList& found, const Certificate& certificate) {
     Tally all;
+    std::vector<FoundInRow> below;
     for (const CertifiedTable& table : certificate.tables) {
         for (const CertifiedColumn& column : table.columns) {
             Tally tally;
@@ -193,10 +193,11 @@ void scope(FindingList& found, const Certificate& certificate) {
             if (tally.outside > 0) {
                 mixed(found, column.result, tally, certificate.profile);
             }
-            capabilities(found, table, column);
+            capabilities(table, column, below);
             all.add(tally);
         }
     }
+    found.add_by_cause(below);
     // The symbol may stand only where at least one result is accredited (X02). U at the capability throughout says that
     // the item under calibration adds nothing, which is seldom true (X03).
     if (all.inside == 0) {

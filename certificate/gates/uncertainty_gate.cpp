@@ -104,13 +104,30 @@ void verdict(FindingList& found, const CertifiedValue& value) {
     }
 }
 
+/// How bad a finding is among those of its cause at other values.
+double badness_of(const Finding& finding, const CertifiedValue& value) {
+    if (finding.id == "R01") {
+        return significant_digits(value.printed_U);
+    }
+    if (finding.id == "D05") {
+        return value.U.value_or(0.0);
+    }
+    if (finding.id != "D08") {
+        return 0.0;
+    }
+    // Of causes that tell the probability, and of the one that tells the ratio, which is below 1 there.
+    const Verdict& v = *value.verdict;
+    return finding.what.find("test uncertainty ratio") != std::string::npos ? -v.test_uncertainty_ratio.value_or(0.0)
+                                                                            : -v.conformance_probability;
+}
+
 }  // namespace
 
 std::vector<Finding> uncertainty_findings(const Certificate& certificate) {
     FindingList found(certificate.data);
+    std::vector<FoundInRow> of_values;
     for (const CertifiedTable& table : certificate.tables) {
         for (const CertifiedColumn& column : table.columns) {
-            std::vector<FoundInRow> of_rows;
             for (std::size_t row = 0; row < column.values.size(); ++row) {
                 const CertifiedValue& value = column.values[row];
                 FindingList of_row(certificate.data);
@@ -120,12 +137,17 @@ std::vector<Finding> uncertainty_findings(const Certificate& certificate) {
                     verdict(of_row, value);
                 }
                 for (Finding& finding : of_row.take()) {
-                    of_rows.push_back({.row = row, .finding = std::move(finding)});
+                    const double badness = badness_of(finding, value);
+                    of_values.push_back({.table = &table,
+                                         .column = &column,
+                                         .row = row,
+                                         .finding = std::move(finding),
+                                         .badness = badness});
                 }
             }
-            found.add_by_cause(table, column, of_rows);
         }
     }
+    found.add_by_cause(of_values);
     worded_verdicts(found, certificate);
     return found.take();
 }

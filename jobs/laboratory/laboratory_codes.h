@@ -11,7 +11,7 @@ namespace gumcert::jobs {
 inline constexpr InputCode k_laboratory_missing{"GC-LAB-0100", "a job refers to the laboratory and names none"};
 inline constexpr InputCode k_laboratory_id{"GC-LAB-0101", "an identification that is not the name of its file"};
 inline constexpr InputCode k_laboratory_order{"GC-LAB-0102", "calibrations that are not in the order of their dates"};
-inline constexpr InputCode k_laboratory_coverage{"GC-LAB-0103", "an expanded uncertainty with neither k nor p"};
+inline constexpr InputCode k_laboratory_coverage{"GC-LAB-0103", "an expanded uncertainty that is not stated as one"};
 inline constexpr InputCode k_laboratory_drift{"GC-LAB-0104", "a drift model that lacks what it needs"};
 inline constexpr InputCode k_laboratory_interval{"GC-LAB-0105", "a plan of recalibration that lacks what it needs"};
 inline constexpr InputCode k_laboratory_person{"GC-LAB-0106", "a person whom the laboratory does not name"};
@@ -21,10 +21,12 @@ inline constexpr InputCode k_laboratory_shared{"GC-LAB-0109", "several inputs dr
 inline constexpr InputCode k_laboratory_schema{"GC-LAB-0110", "a file of the laboratory of another form"};
 inline constexpr InputCode k_laboratory_other_day{"GC-LAB-0111",
                                                   "a standard that is used outside of the days of the work"};
+inline constexpr InputCode k_laboratory_absent{"GC-LAB-0112",
+                                               "a standard, customer or method that the laboratory does not have"};
 
-inline constexpr std::array k_laboratory_codes{k_laboratory_missing,  k_laboratory_id,     k_laboratory_order,
-                                               k_laboratory_coverage, k_laboratory_drift,  k_laboratory_interval,
-                                               k_laboratory_person,   k_laboratory_day,    k_laboratory_unit,
-                                               k_laboratory_shared,   k_laboratory_schema, k_laboratory_other_day};
+inline constexpr std::array k_laboratory_codes{
+    k_laboratory_missing,  k_laboratory_id,        k_laboratory_order, k_laboratory_coverage, k_laboratory_drift,
+    k_laboratory_interval, k_laboratory_person,    k_laboratory_day,   k_laboratory_unit,     k_laboratory_shared,
+    k_laboratory_schema,   k_laboratory_other_day, k_laboratory_absent};
 
 }  // namespace gumcert::jobs

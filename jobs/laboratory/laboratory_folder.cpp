@@ -89,6 +89,15 @@ const laboratory::StandardRecord* LaboratoryFolder::standard(const std::string& 
     return record ? &*record : nullptr;
 }
 
+std::optional<std::vector<std::string>> LaboratoryFolder::others_than(const std::string& part,
+                                                                      const std::string& id) const {
+    std::vector<std::string> names = files_->json_files(name_of(part + "/"));
+    const bool is_there = std::find(names.begin(), names.end(), id) != names.end() ||
+                          files_->peek(name_of(part + "/" + id + ".json")).has_value();
+    const bool has_folder = !names.empty() || files_->peek(name_of("laboratory.json")).has_value();
+    return is_there || !has_folder ? std::nullopt : std::optional(std::move(names));
+}
+
 template <class Struct>
 const nlohmann::json* LaboratoryFolder::object(const std::string& name) {
     const auto [entry, is_new] = objects_.try_emplace(name, nlohmann::json::value_t::discarded);

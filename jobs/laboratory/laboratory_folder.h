@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "jobs/job_files.h"
 #include "jobs/json_object.h"
@@ -34,6 +35,10 @@ public:
     /// An object `customer` or `method` of certificate data; null where it was refused.
     [[nodiscard]] const nlohmann::json* customer(const std::string& id);
     [[nodiscard]] const nlohmann::json* method(const std::string& id);
+    /// What is in a part of the folder ("standards", "customers", "methods") in place of an identification that it does not
+    /// have; nothing where it has it, or where the folder itself is not there: what cannot be read is told then.
+    [[nodiscard]] std::optional<std::vector<std::string>> others_than(const std::string& part,
+                                                                      const std::string& id) const;
     /// The name of a file of the folder as the job would give it.
     [[nodiscard]] std::string name_of(const std::string& file) const { return prefix_ + file; }
 

@@ -82,7 +82,10 @@ void describe(Archive& a, laboratory::CalibrationResult& r) {
     a("high", r.high, In{}, "Up to this one.");
     a.needed("value", r.value, In{}, "As on the certificate.");
     a.needed_by_hand("unit", k_unit_schema, "a unit", "Of value and U.");
-    a.needed("U", r.U, In{above_zero("")}, "Expanded uncertainty, with k or p.");
+    a("U", r.U, In{above_zero("")}, "Expanded uncertainty, with k or p.");
+    a("relative_U", r.relative_U,
+      In{{.low = 0.0, .high = 1.0, .low_open = true, .hint = "state it as a ratio: 0.5 % is 0.005"}},
+      "U over the value, in place of U, as the certificate states it.");
     a("k", r.k, In{{.low = 1.0, .hint = "a coverage factor is not below 1; check that U is an expanded uncertainty"}},
       "Its coverage factor.");
     a("p", r.p,
@@ -94,6 +97,7 @@ void describe(Archive& a, laboratory::CalibrationResult& r) {
       "Its coverage probability.");
     a.by_code("nu", Either{In{above_zero("")}, Words<bool, 1>{{{"inf", true}}}},
               "Degrees of freedom; inf when left out.");
+    a.exactly_one_of({"U", "relative_U"});
     a.at_least_one_of({"k", "p"});
     a.needs("low", "high");
     a.needs("high", "low");

@@ -209,6 +209,18 @@ bool is_of_kind(const json& row, const std::string& unit) {
     return gum::Unit::parse(stated.empty() ? "1" : stated).dimension() == gum::Unit::parse(unit).dimension();
 }
 
+/// To the two digits of an uncertainty.
+double in_two_digits(double U) {
+    const std::string text = text::significant(U, 2);
+    std::from_chars(text.data(), text.data() + text.size(), U);
+    return U;
+}
+
+/// U of a line for the list of standards: a share of the value has as many digits as the value.
+double shown_U(const laboratory::CalibrationResult& line, double U) {
+    return line.relative_U ? in_two_digits(U) : U;
+}
+
 double factor_of(const laboratory::CalibrationResult& line) {
     return line.k ? *line.k : line.U / laboratory::standard_uncertainty(line);
 }
@@ -222,7 +234,7 @@ void put_uncertainty_of_kind(json& row, std::vector<const laboratory::Calibratio
     std::erase_if(lines, [&](const laboratory::CalibrationResult* line) {
         const UnitChange change(gum::unit_of_difference(line->unit), unit);
         if (change.is_possible()) {
-            all.emplace_back(change.difference(line->U), factor_of(*line));
+            all.emplace_back(shown_U(*line, change.difference(line->U)), factor_of(*line));
         }
         return change.is_possible();
     });
@@ -230,8 +242,7 @@ void put_uncertainty_of_kind(json& row, std::vector<const laboratory::Calibratio
     const double k = std::max_element(all.begin(), all.end(), less)->second;
     for (auto& [U, own] : all) {
         if (std::abs(own - k) > k_same_U * k) {  // of another k: two digits of what it is with this one
-            const std::string text = text::significant(U / own * k, 2);
-            std::from_chars(text.data(), text.data() + text.size(), U);
+            U = in_two_digits(U / own * k);
         }
     }
     const auto [least, largest] = std::minmax_element(all.begin(), all.end());
@@ -253,10 +264,16 @@ void put_uncertainty(json& row, std::vector<const laboratory::CalibrationResult*
     }
 }
 
+/// A value as people write it: 0.00006, where JSON has 6e-05.
+std::string in_words(const json& value) {
+    constexpr double k_least_plain = 1e-9;
+    return value.is_number_float() ? text::shortest_plain(value.get<double>(), k_least_plain) : described(value);
+}
+
 /// What tells an entry of a list: a text or number, else its id or name, else the beginning of its JSON.
 std::string described_entry(const json& entry) {
     if (!entry.is_structured()) {
-        return described(entry);
+        return in_words(entry);
     }
     for (const char* key : {"id", "name", "measurand"}) {
         if (const auto found = entry.find(key); entry.is_object() && found != entry.end() && found->is_string()) {
@@ -536,7 +553,34 @@ const StandardRecord* LaboratoryUse::standard_of(const json& id, const Certifica
                      "name the standard as its file is named, without .json");
         return nullptr;
     }
-    return folder_->standard(name);
+    return refuse_absent("standards", name, place) ? nullptr : folder_->standard(name);
+}
+
+bool LaboratoryUse::refuse_absent(const std::string& part, const std::string& id, const CertificatePlace& place) {
+    constexpr std::size_t k_most_named = 20;
+    const std::optional<std::vector<std::string>> others = folder_->others_than(part, id);
+    if (!others) {
+        return false;
+    }
+    const std::string folder = folder_->name_of(part + "/");
+    // The rows of a table name one standard, as a rule: it is told where it stands first.
+    if (!absent_.insert(folder + id).second) {
+        return true;
+    }
+    std::vector<std::string> named;
+    std::transform(others->begin(), others->end(), std::back_inserter(named),
+                   [](const std::string& one) { return text::in_quotes(one); });
+    const std::optional<std::string_view> nearest =
+        nearest_word(id, std::vector<std::string_view>(others->begin(), others->end()));
+    const std::string thing = part.substr(0, part.size() - 1);
+    place.refuse(k_laboratory_absent, text::in_quotes(id) + ", and the laboratory has no such " + thing,
+                 "in " + text::visible(folder) +
+                     (named.empty() ? " there is none"
+                                    : " there " + std::string(named.size() == 1 ? "is " : "are ") +
+                                          text::listed(named, k_most_named)),
+                 (nearest ? "did you mean " + text::in_quotes(*nearest) + "? Else name" : std::string("name")) +
+                     " the " + thing + " as its file is named, without .json, or add the file");
+    return true;
 }
 
 std::optional<std::string> LaboratoryUse::read_take(const JsonDocument& job, const json& statement,
@@ -592,7 +636,7 @@ void LaboratoryUse::fill_statement(JsonDocument& job, const std::string& pointer
     }
     const laboratory::Applicability verdict = laboratory::applicability(*record, *use);
     note_day(*record, use->date);
-    facts_.uses.push_back({record->id, input, word_of(verdict.answer), verdict.because});
+    facts_.uses.push_back({record->id, input, word_of(verdict.answer), verdict.because, verdict.is_of_validity});
     note_use(record->id);
     if (!is_point) {
         inputs_of_[record->id].push_back(input);
@@ -945,8 +989,10 @@ void LaboratoryUse::complete_by_id(json& data, const char* key, const Certificat
         discard(value);
         return;
     }
-    const json* registered =
-        is_customer ? folder_->customer(id.get<std::string>()) : folder_->method(id.get<std::string>());
+    const bool is_absent = refuse_absent(is_customer ? "customers" : "methods", id.get<std::string>(), at);
+    const json* registered = is_absent     ? nullptr
+                             : is_customer ? folder_->customer(id.get<std::string>())
+                                           : folder_->method(id.get<std::string>());
     if (registered == nullptr) {
         discard(value);
         return;
@@ -1075,15 +1121,16 @@ void LaboratoryUse::compare_standard(const json& stated, const json& row, const 
                 const double k = factor_of(line);
                 fits = fits || (key == "k" ? value.is_number() && std::abs(value.get<double>() - k) <= k_same_U * k
                                            : U && is_of_kind(stated, line.unit) &&
-                                                 std::abs(*U - of_line) <= k_same_U * of_line);
+                                                 (std::abs(*U - of_line) <= k_same_U * of_line ||
+                                                  (line.relative_U && in_two_digits(*U) == in_two_digits(of_line))));
             }
             if (!fits && (key == "k" || (key != "unit" && U))) {
                 const auto of_row = registered == row.end() ? row.find("U") : registered;
-                contradict(key, described(value) + (key != "k" ? " " + text_in(stated, "unit") : std::string()),
-                           described(*of_row) + (key != "k" ? " " + text_in(row, "unit") : std::string()));
+                contradict(key, in_words(value) + (key != "k" ? " " + text_in(stated, "unit") : std::string()),
+                           in_words(*of_row) + (key != "k" ? " " + text_in(row, "unit") : std::string()));
             }
         } else if (registered == row.end() ? value.is_string() : *registered != value) {
-            contradict(key, described(value), registered == row.end() ? "nothing" : described(*registered));
+            contradict(key, in_words(value), registered == row.end() ? "nothing" : in_words(*registered));
         }
     }
 }
@@ -1114,10 +1161,14 @@ void LaboratoryUse::complete_standards(json& data, const CertificatePlace& place
         if (record == nullptr) {
             facts_.not_registered.push_back(id);
             if (!entry.contains("name")) {
-                place.below(pointer).refuse(
-                    k_laboratory_id, text::in_quotes(id) + " is not in the register",
-                    "a standard that is named only stands in standards/" + text::visible(id) + ".json",
-                    "add it to the register, or write the standard out");
+                const bool is_told =
+                    LaboratoryFolder::is_identification(id) && refuse_absent("standards", id, place.below(pointer));
+                if (!is_told) {
+                    place.below(pointer).refuse(
+                        k_laboratory_id, text::in_quotes(id) + " is not in the register",
+                        "a standard that is named only stands in standards/" + text::visible(id) + ".json",
+                        "add it to the register, or write the standard out");
+                }
                 discard(entry);
             }
             continue;

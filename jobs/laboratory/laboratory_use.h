@@ -77,6 +77,10 @@ private:
     void fill_row(const JsonDocument& job, const CsvTable& table, std::span<const std::string_view> columns,
                   std::size_t row, const std::string& input, ProblemList& problems);
     [[nodiscard]] const laboratory::StandardRecord* standard_of(const Json& id, const CertificatePlace& place);
+    /// Tells once that the folder has no such file, with what it has.
+    /// \param part  "standards", "customers", "methods"
+    /// \return whether there is none
+    bool refuse_absent(const std::string& part, const std::string& id, const CertificatePlace& place);
     void note_use(const std::string& standard);
     /// Notes for the gates where the plan of a standard wants it calibrated before a day of its use.
     void note_day(const laboratory::StandardRecord& record, const std::string& day);
@@ -121,6 +125,7 @@ private:
     std::map<std::string, std::vector<const laboratory::CalibrationResult*>>
         lines_of_;                                                      ///< that inputs take, each once
     std::map<std::pair<std::size_t, std::string>, JsonDocument> rows_;  ///< by row and input
+    std::set<std::string> absent_;                                      ///< files that were told to be absent
     std::map<std::string, Json> once_;  ///< by input: standard, how it is used, and components, as the job states them
 };
 

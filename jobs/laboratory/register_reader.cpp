@@ -1,11 +1,13 @@
 #include "jobs/laboratory/register_reader.h"
 
+#include <cmath>
 #include <set>
 #include <string>
 #include <tuple>
 #include <utility>
 
 #include "certificate/dates.h"
+#include "gum/quantity/unit.h"
 #include "jobs/certificate/certificate_archive.h"
 #include "jobs/job_reader.h"
 #include "jobs/laboratory/laboratory_codes.h"
@@ -155,9 +157,11 @@ private:
             JobReader(line).read(result);
             result.unit = objects_.needed_text(line, "unit", TextForm::unit);
             result.nominal_unit = objects_.text(line, "nominal_unit", TextForm::unit);
+            read_relative(line, result);
             read_degrees_of_freedom(line, result);
             if (!line.has("k") && !line.has("p")) {
-                line.refuse(k_laboratory_coverage, "U", "U with neither k nor p",
+                line.refuse(k_laboratory_coverage, line.has("relative_U") ? "relative_U" : "U",
+                            "U with neither k nor p",
                             "an expanded uncertainty means something with its coverage factor or probability only",
                             "state k, or p, as the certificate does");
             }
@@ -178,6 +182,30 @@ private:
         if (calibration.results.empty() && object.has("results")) {
             object.refuse(k_certificate_empty_list, "results", "no line", "a certificate states one value at least",
                           "add the values");
+        }
+    }
+
+    static void read_relative(const JsonObject& line, CalibrationResult& result) {
+        const bool is_relative = line.has("relative_U");
+        if (is_relative == line.has("U")) {
+            line.refuse(k_laboratory_coverage, is_relative ? "relative_U" : "U",
+                        is_relative ? "U and relative_U" : "neither U nor relative_U",
+                        "a line states its expanded uncertainty once",
+                        is_relative ? "keep the one that the certificate states"
+                                    : "state U, or relative_U where the certificate states it as a share of the value");
+        } else if (result.relative_U) {
+            // What a unit with an origin of its own calls 0 is no size that anything could be a share of.
+            const gum::Unit unit = result.unit.empty() ? gum::Unit() : gum::Unit::parse(result.unit);
+            const bool is_temperature = unit.is_celsius_temperature() || unit.to_si(0.0) != 0.0;
+            if (result.value == 0.0 || is_temperature) {
+                line.refuse(
+                    k_laboratory_coverage, "relative_U",
+                    is_temperature ? "relative_U of a value in " + text::in_quotes(result.unit)
+                                   : std::string("relative_U of the value 0"),
+                    "a relative uncertainty is one of a value other than 0, of a scale without an origin of its own",
+                    "state U in the unit of the value");
+            }
+            result.U = *result.relative_U * std::abs(result.value);
         }
     }
 

@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <array>
+#include <set>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -187,8 +189,22 @@ void item(DccWriter& w, const certificate::Item& i, const std::string& id) {
     const Wording& words = w.words();
     w.xml.open("dcc:item", {{"id", id}});
     w.text("dcc:name", words.localised(i.description));
-    w.optional_text("dcc:description",
-                    facts_in_lines(words, {{"condition", words.localised(i.condition)}, {"owner", i.owner}}));
+    std::vector<std::pair<const char*, Text>> facts;
+    std::vector<const LocalisedText*> conditions{&i.condition};
+    for (const certificate::SectionData& section : w.data().sections) {
+        // Sections may state other conditions of one item.
+        const bool is_other = section.item && certificate::is_same_item(*section.item, i) &&
+                              std::none_of(conditions.begin(), conditions.end(),
+                                           [&](const LocalisedText* c) { return *c == section.item->condition; });
+        if (is_other) {
+            conditions.push_back(&section.item->condition);
+        }
+    }
+    for (const LocalisedText* condition : conditions) {
+        facts.emplace_back("condition", words.localised(*condition));
+    }
+    facts.emplace_back("owner", i.owner);
+    w.optional_text("dcc:description", facts_in_lines(words, facts));
     if (!without_outer_blanks(i.manufacturer).empty()) {
         w.xml.open("dcc:manufacturer");
         w.text("dcc:name", i.manufacturer);
@@ -235,8 +251,9 @@ void items(DccWriter& w) {
     } else {
         item(w, of_all, is_of_results ? "item_1" : "");
     }
+    std::set<std::string> written{"item_1"};
     for (const certificate::SectionData& section : w.data().sections) {
-        if (section.item) {
+        if (section.item && written.insert(w.item_id(section.section)).second) {
             item(w, *section.item, w.item_id(section.section));
         }
     }

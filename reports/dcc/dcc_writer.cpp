@@ -95,11 +95,25 @@ void DccWriter::enter_section(const std::string& section) {
 }
 
 std::string DccWriter::item_id(const std::string& section) const {
-    std::size_t number = 1;
+    // One instrument that several sections are about is one item, with one id.
+    std::vector<const certificate::Item*> items;
+    if (!certificate::stated_by_sections(data_, tables_).item) {
+        items.push_back(&data_.item);
+    } else {
+        items.push_back(nullptr);  // the first id is that of the item of the certificate, also where it states none
+    }
     for (const certificate::SectionData& own : data_.sections) {
-        number += own.item ? 1U : 0U;
-        if (own.section == section && own.item) {
-            return "item_" + std::to_string(number);
+        if (!own.item) {
+            continue;
+        }
+        auto known = std::find_if(items.begin(), items.end(), [&](const certificate::Item* item) {
+            return item != nullptr && certificate::is_same_item(*item, *own.item);
+        });
+        if (known == items.end()) {
+            known = items.insert(known, &*own.item);
+        }
+        if (own.section == section) {
+            return "item_" + std::to_string(known - items.begin() + 1);
         }
     }
     return "item_1";

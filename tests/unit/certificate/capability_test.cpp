@@ -67,6 +67,47 @@ TEST(Capability, ValueHoldsEverywhere) {
     EXPECT_EQ(capability_at(value(), {}).U, 0.6);
 }
 
+TEST(Capability, ValueHasAShareOfItsArgument) {
+    Capability share{
+        .form = "value", .unit = "uV", .U = 2.0, .ppm_of_value = 10.0, .arguments = {{.name = "V", .unit = "V"}}};
+    EXPECT_TRUE(agrees(*capability_at(share, {{"V", 10.0}}).U, 102.0, 1e-15));  // 10 V: 10 ppm are 100 µV
+    EXPECT_TRUE(agrees(*capability_at(share, {{"V", -10.0}}).U, 102.0, 1e-15));
+    EXPECT_EQ(capability_at(share, {{"V", 0.0}}).U, 2.0);
+    share.ppm_of_value.reset();
+    share.percent_of_value = 0.001;
+    EXPECT_TRUE(agrees(*capability_at(share, {{"V", 10.0}}).U, 102.0, 1e-15));
+    share.U = 0.0;
+    EXPECT_TRUE(agrees(*capability_at(share, {{"V", 1.0}}).U, 10.0, 1e-15));
+    EXPECT_EQ(capability_at(share, {{"V", 0.0}}).reason, "the capability is a share of V, which is 0 here");
+}
+
+TEST(CheckCapability, AsksForWhatAShareIsOf) {
+    const Capability share{
+        .form = "value", .unit = "uV", .ppm_of_value = 10.0, .arguments = {{.name = "V", .unit = "V"}}};
+    const auto keys_with = [&](const auto& change) {
+        Capability changed = share;
+        change(changed);
+        return keys(changed);
+    };
+    using Keys = std::vector<std::string>;
+    EXPECT_EQ(keys(share), Keys{});
+    EXPECT_EQ(keys_with([](Capability& c) { c.arguments.clear(); }), Keys{"/arguments"});
+    EXPECT_EQ(keys_with([](Capability& c) { c.arguments[0].unit = "A"; }), Keys{"/arguments/0/unit"});
+    EXPECT_EQ(keys_with([](Capability& c) { c.percent_of_value = 1.0; }), Keys{"/ppm_of_value"});
+    EXPECT_EQ(keys_with([](Capability& c) { c.ppm_of_value = -1.0; }), Keys{"/ppm_of_value"});
+    EXPECT_EQ(keys_with([](Capability& c) { c.U = -1.0; }), Keys{"/U"});
+    EXPECT_EQ(keys_with([](Capability& c) {
+                  c.form = "function";
+                  c.expression = "2*V";
+              }),
+              Keys{"/ppm_of_value"});
+    EXPECT_EQ(keys_with([](Capability& c) {
+                  c.unit = "K";
+                  c.arguments[0].unit = "degC";
+              }),
+              Keys{"/arguments/0/unit"});
+}
+
 TEST(Capability, RangeIsLinearBetweenItsEnds) {
     EXPECT_TRUE(prints_as(at(range(), 0.35), "1.30"));  // certificate notes, 2.1; golden vector 10
     EXPECT_TRUE(agrees(at(range(), 0.35), 1.3, 1e-15));

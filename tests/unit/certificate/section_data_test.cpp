@@ -22,6 +22,17 @@ CertificateData two_sections() {
     return data;
 }
 
+TEST(SectionData, AnItemIsTheSameByWhatIdentifiesIt) {
+    Item a;
+    a.description = "Multimeter";
+    a.serial_number = "SN-1";
+    Item b = a;
+    b.condition = "No damage seen";
+    EXPECT_TRUE(is_same_item(a, b));
+    b.serial_number = "SN-2";
+    EXPECT_FALSE(is_same_item(a, b));
+}
+
 TEST(SectionData, StandInPlaceOfThoseOfTheCertificate) {
     const CertificateData of = data_of_section(two_sections(), "AC");
     EXPECT_EQ(of.method.identification, "CP-2");

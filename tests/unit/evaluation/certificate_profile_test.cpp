@@ -67,6 +67,47 @@ TEST(CertificateProfile, OfTheProgramHasTermsForItsWording) {
     EXPECT_GE(profiles, 8U);
 }
 
+/// The permanent sentences speak of the item, or of the items where sections have items of their own.
+TEST(CertificateProfile, SpeaksOfOneItemOrOfSeveral) {
+    for (const auto& entry : std::filesystem::directory_iterator(k_sources / "templates/profiles")) {
+        certificate::CertificateData data = test::sample_certificate_data();
+        data.profile = entry.path().stem().string();
+        const auto sentences = [&](const char* language) {
+            std::string all;
+            for (const auto& sentence : certificate_profile(data, k_sources / "templates").first_page_sentences) {
+                all += sentence.in(language);
+            }
+            return all;
+        };
+        using testing::HasSubstr;
+        EXPECT_THAT(sentences("en"), HasSubstr("endorsement of the item by")) << data.profile;
+        EXPECT_THAT(sentences("de"), HasSubstr("keine Empfehlung des Gegenstands durch"));
+        EXPECT_THAT(sentences("es"), HasSubstr("avale el objeto calibrado."));
+        certificate::SectionData& section = data.sections.emplace_back();
+        section.item = data.item;
+        EXPECT_THAT(sentences("en"), HasSubstr("of the item by")) << "a section of the same item";
+        section.item->serial_number = "another one";
+        EXPECT_THAT(sentences("en"), HasSubstr("endorsement of the items by"));
+        EXPECT_THAT(sentences("de"), HasSubstr("keine Empfehlung der Gegenstände durch"));
+        EXPECT_THAT(sentences("es"), HasSubstr("avale los objetos calibrados."));
+        EXPECT_THAT(sentences("zh-Hant"), testing::Not(HasSubstr("{")));
+    }
+}
+
+/// A copy of a profile of the program, from its file or from a record, is no other profile.
+TEST(CertificateProfile, IsTheSameWhateverFormItsSentencesHave) {
+    certificate::CertificateData data = test::sample_certificate_data();
+    data.profile = "ilac";
+    const certificate::Profile of_program = certificate_profile(data, k_sources / "templates");
+    data.own_profile = of_program;
+    EXPECT_EQ(certificate_profile(data, k_sources / "templates"), of_program);
+    data.own_profile->id = "own";
+    data.own_profile->first_page_sentences[0].by_language = {{"en", "As {agreed?by us|by all}, {x?}."}};
+    EXPECT_EQ(certificate_profile(data, k_sources / "templates").first_page_sentences[0].in("en"),
+              "As {agreed?by us|by all}, {x?}.")
+        << "what a person writes in braces";
+}
+
 TEST(CertificateProfile, IsRefusedWhereThereIsNoneOfThatName) {
     certificate::CertificateData data = test::sample_certificate_data();
     for (const char* name : {"nowhere", "", "../profiles/ilac", "/etc/passwd", "ilac.json"}) {

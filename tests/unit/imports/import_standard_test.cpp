@@ -131,6 +131,34 @@ TEST(ImportStandard, RowsOfATableAreLinesOfOneQuantity) {
     EXPECT_NE(lines[1]["quantity"], lines[2]["quantity"]) << "nominal values do not tell the rows apart";
 }
 
+// A use at 5 V finds the line at 5 V, and none at 5.00005 V: that these are references is told. Remarks on the inputs of a job
+// are not made beside a file of the register.
+TEST(ImportStandard, NominalValuesGoBeforeReferences) {
+    const std::string reference = list_of("basic_referenceValue", "5.00005 10.0003", "\\volt", "");
+    const std::string error = list_of("basic_measurementError", "0.1 0.2", "\\volt", "0.01 0.02");
+    const auto codes = [](const ImportedJob& imported) {
+        std::vector<std::string> all;
+        for (const gum::Diagnostic& remark : imported.remarks) {
+            all.push_back(remark.code);
+        }
+        return all;
+    };
+    const auto nominal = [](const ImportedJob& imported) {
+        return nlohmann::json::parse(imported.job)["calibrations"][0]["results"][0]["nominal"].get<double>();
+    };
+    const ImportedJob both = import_list(reference + error + list_of("basic_nominalValue", "5 10", "\\volt", ""));
+    EXPECT_EQ(nominal(both), 5.0);
+    EXPECT_THAT(codes(both), testing::Not(testing::Contains("GC-LAB-0023")));
+    EXPECT_THAT(codes(both), testing::Not(testing::Contains("GC-DCC-0032")));
+    const ImportedJob alone = import_list(reference + error);
+    EXPECT_EQ(nominal(alone), 5.00005);
+    const auto told = std::find_if(alone.remarks.begin(), alone.remarks.end(),
+                                   [](const gum::Diagnostic& remark) { return remark.code == "GC-LAB-0023"; });
+    ASSERT_NE(told, alone.remarks.end());
+    EXPECT_THAT(told->what, testing::HasSubstr("5.00005 V, 10.0003 V"));
+    EXPECT_EQ(alone.remarks.back().code, "GC-LAB-0020");
+}
+
 // Ten frequencies at one acceleration: the nominal value says nothing of a row, the frequency does.
 TEST(ImportStandard, WhatWasSetTellsRowsOfOneNominalValueApart) {
     const auto lines = [](const std::string& stated, const std::string& set, const std::string& before = "") {

@@ -40,6 +40,17 @@ protected:
     fs::path folder_;
 };
 
+TEST_F(DiskFiles, AreListedForMessages) {
+    const DiskFileSource source = DiskFileSource::of_job(folder_ / "jobs" / "job.json", folder_ / "laboratory");
+    using Names = std::vector<std::string>;
+    EXPECT_EQ(source.json_files("laboratory:/"), Names{"standard"});
+    EXPECT_EQ(source.json_files("../other/"), Names{"job"});
+    EXPECT_EQ(ReadOnceSource(source).json_files("../laboratory/"), Names{"standard"});
+    EXPECT_EQ(source.json_files("absent/"), Names{});
+    const MemoryFileSource memory({{"lab/a.json", ""}, {"lab/b.csv", ""}, {"lab/sub/c.json", ""}, {"other.json", ""}});
+    EXPECT_EQ(memory.json_files("lab/"), Names{"a"});
+}
+
 TEST_F(DiskFiles, AreWhereTheirNamesShow) {
     const DiskFileSource source = DiskFileSource::of_job(folder_ / "jobs" / "job.json", folder_ / "laboratory_link");
     EXPECT_EQ(source.read("x.csv"), "jobs/x.csv");

@@ -158,8 +158,11 @@ std::string unit_of_number(const std::map<std::string, std::string>& units, std:
         const auto unit = units.find(place);
         return unit == units.end() ? std::string() : unit->second;
     };
-    if (key == "percent_of_reading" || key == "percent_of_range") {
+    if (key == "percent_of_reading" || key == "percent_of_range" || key == "percent_of_value") {
         return "%";
+    }
+    if (key == "ppm_of_value") {
+        return "ppm";
     }
     if (key == "low" || key == "high") {
         return at(parent + "/argument");

@@ -1,8 +1,12 @@
 #include "reports/record/make/certificate/certified_scope.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <string_view>
+#include <utility>
 
 #include "certificate/capability.h"
 #include "certificate/gates/held_against.h"
@@ -151,6 +155,61 @@ std::string out_of_ranges(const certificate::CertificateData& data, const ScopeE
     return {};
 }
 
+/// The quantity of which a capability in % or ppm is a share, in the unit of the result.
+Found whole_of_share(const certificate::CertificateData& data, const ScopeEntry& entry, const ScopePlace& place,
+                     const certificate::CapabilityInputs& inputs) {
+    const Unit column = Unit::parse(place.column.unit);
+    std::vector<CapabilityArgument> arguments = entry.capability.arguments;
+    for (const ScopeEntry::Range& range : entry.ranges) {
+        arguments.push_back(range.argument);
+    }
+    for (const CapabilityArgument& argument : arguments) {
+        if (gum::of_one_kind(Unit::parse(argument.unit), column)) {
+            const Found at = argument_of(data, entry, place, inputs, argument);
+            return at.value ? converted(*at.value, argument.unit, place.column.unit, argument.name) : at;
+        }
+    }
+    const certificate::Measured measured = certificate::measured_at(place.table, place.column, place.row, column);
+    if (measured.is_place) {
+        return converted(measured.value, measured.unit, place.column.unit, place.column.result);
+    }
+    // Whether the result is the quantity or an error of it, nobody can say here: a share of an error would be far less
+    // than the scope states.
+    return {.value = {},
+            .why = "the capability of \"" + entry.id + "\" is a share (\"" + entry.capability.unit +
+                   "\"), and the scope entry has no range of the quantity of which it is one"};
+}
+
+/// \param U  in the unit of the capability
+Found in_unit_of_result(double U, const certificate::CertificateData& data, const ScopeEntry& entry,
+                        const ScopePlace& place, const certificate::CapabilityInputs& inputs) {
+    const Unit unit = Unit::parse(entry.capability.unit);
+    const Unit column = Unit::parse(place.column.unit);
+    if (unit.dimension() == column.dimension()) {
+        return {.value = entry.capability.unit == place.column.unit
+                             ? U
+                             : column.difference_from_si(unit.difference_to_si(U)),
+                .why = {}};
+    }
+    // Nothing is a share of a place on a scale with an origin of its own: a Celsius temperature, a level.
+    if (!unit.dimension().is_one() || column.is_celsius_temperature() ||
+        column.dimension() == Unit::parse("dB").dimension()) {
+        return {.value = {},
+                .why = "the capability has the unit \"" + entry.capability.unit + "\", and the result \"" +
+                       place.column.unit + "\""};
+    }
+    const Found whole = whole_of_share(data, entry, place, inputs);
+    if (!whole.value) {
+        return whole;
+    }
+    if (*whole.value == 0.0) {
+        return {.value = {},
+                .why = "the capability of \"" + entry.id + "\" is a share (\"" + entry.capability.unit +
+                       "\"), and here one of 0"};
+    }
+    return {.value = unit.difference_to_si(U) * std::abs(*whole.value), .why = {}};
+}
+
 Found capability_of(const certificate::CertificateData& data, const ScopeEntry& entry, const ScopePlace& place,
                     const certificate::CapabilityInputs& inputs) {
     std::vector<ArgumentValue> arguments;
@@ -171,15 +230,11 @@ Found capability_of(const certificate::CertificateData& data, const ScopeEntry& 
     if (!at.U) {
         return {.value = {}, .why = at.reason};
     }
-    const Unit unit = Unit::parse(entry.capability.unit);
-    const Unit column = Unit::parse(place.column.unit);
-    if (!(unit.dimension() == column.dimension())) {
-        return {.value = {},
-                .why = "the capability has the unit \"" + entry.capability.unit + "\", and the result \"" +
-                       place.column.unit + "\""};
+    Found in_column = in_unit_of_result(*at.U, data, entry, place, inputs);
+    if (!in_column.value) {
+        return in_column;
     }
-    double U =
-        entry.capability.unit == place.column.unit ? *at.U : column.difference_from_si(unit.difference_to_si(*at.U));
+    double U = *in_column.value;
     if (std::abs(place.coverage_probability - entry.capability.coverage_probability) > k_same_probability) {
         constexpr double k_normal = std::numeric_limits<double>::infinity();
         U *= gum::coverage_factor(place.coverage_probability, k_normal) /
@@ -219,26 +274,109 @@ ScopeAnswer answer_of(const certificate::CertificateData& data, const ScopeEntry
     return {.entry = entry.id, .outside_because = {}, .capability = capability.value};
 }
 
+/// A range of the item in words, "10 V", in a unit; nothing where it is none of its kind.
+std::optional<double> size_of(std::string_view words, const std::string& unit) {
+    for (const std::string_view sign : {"±", "+"}) {
+        if (words.starts_with(sign)) {
+            words.remove_prefix(sign.size());
+        }
+    }
+    words.remove_prefix(std::min(words.find_first_not_of(' '), words.size()));
+    double number = 0.0;
+    const auto [end, failure] = std::from_chars(words.data(), words.data() + words.size(), number);
+    std::string_view rest(end, static_cast<std::size_t>(words.data() + words.size() - end));
+    rest.remove_prefix(std::min(rest.find_first_not_of(' '), rest.size()));
+    if (failure != std::errc() || rest.empty() ||
+        std::string_view("0123456789+-.,/").find(rest.front()) != std::string_view::npos) {
+        return std::nullopt;
+    }
+    try {
+        const Unit of = Unit::parse(rest);
+        const Unit to = Unit::parse(unit);
+        return gum::of_one_kind(of, to) ? std::optional(to.from_si(of.to_si(number))) : std::nullopt;
+    } catch (const gum::InputError&) {
+        return std::nullopt;
+    }
+}
+
+bool is_end(double at, double end) {
+    return std::abs(at - end) <= k_range_noise * std::max(std::abs(at), std::abs(end));
+}
+
+/// One line of the scope that covers a value, and where the value lies in its ranges.
+struct Covering {
+    const ScopeEntry* entry = nullptr;
+    ScopeAnswer answer;
+    std::vector<std::optional<double>> at;  ///< in the unit of each range; none: of several rows
+};
+
+/// Where one line ends and another one begins at the value: the range of the one that begins; nullptr where they do not.
+const ScopeEntry::Range* range_beyond(const Covering& below, const Covering& above) {
+    for (std::size_t i = 0; i < below.entry->ranges.size(); ++i) {
+        const ScopeEntry::Range& ends = below.entry->ranges[i];
+        for (std::size_t j = 0; j < above.entry->ranges.size(); ++j) {
+            const ScopeEntry::Range& begins = above.entry->ranges[j];
+            // Below 0 and at it a scope is read in more ways than one.
+            if (ends.argument.of == begins.argument.of && below.at[i] && above.at[j] && ends.low >= 0.0 &&
+                ends.low < ends.high && begins.low > 0.0 && begins.low < begins.high &&
+                is_end(*below.at[i], ends.high) && is_end(*above.at[j], begins.low)) {
+                return &begins;
+            }
+        }
+    }
+    return nullptr;
+}
+
+/// Whether the value belongs to another line at whose end or beginning it lies.
+bool gives_way(const Covering& one, const Covering& other, const std::string& range) {
+    const auto goes_beyond = [&](const ScopeEntry::Range& r) {
+        const std::optional<double> size = range.empty() ? std::nullopt : size_of(range, r.argument.unit);
+        return size && *size > r.low && !is_end(*size, r.low);
+    };
+    const ScopeEntry::Range* const begins = range_beyond(other, one);  // the value ends `other`
+    const ScopeEntry::Range* const ends = range_beyond(one, other);
+    if (begins != nullptr && ends != nullptr) {
+        return false;  // each ends where the other one begins, of two quantities
+    }
+    return (begins != nullptr && !goes_beyond(*begins)) || (ends != nullptr && goes_beyond(*ends));
+}
+
 }  // namespace
 
 ScopeAnswer scope_of(const certificate::CertificateData& data, const ScopePlace& place,
                      const certificate::CapabilityInputs& inputs) {
-    ScopeAnswer best;
+    std::vector<Covering> inside;
+    std::string because;
     for (const ScopeEntry& entry : data.accreditation->scope) {
         if (!certificate::is_covered(entry.results, place.column.result)) {
             continue;
         }
         ScopeAnswer answer = answer_of(data, entry, place, inputs);
-        const bool first = best.entry.empty() && best.outside_because.empty();
-        const bool inside = !answer.entry.empty();
-        if (first || (inside && (best.entry.empty() || *answer.capability > *best.capability))) {
-            best = std::move(answer);
+        if (answer.entry.empty()) {
+            because = because.empty() ? answer.outside_because : because;
+            continue;
+        }
+        Covering& covering = inside.emplace_back(Covering{.entry = &entry, .answer = std::move(answer), .at = {}});
+        for (const ScopeEntry::Range& range : entry.ranges) {
+            covering.at.push_back(argument_of(data, entry, place, inputs, range.argument).value);
         }
     }
-    if (best.entry.empty() && best.outside_because.empty()) {
-        best.outside_because = "no entry of the scope names the result \"" + place.column.result + "\"";
+    std::vector<const Covering*> left;
+    for (const Covering& one : inside) {
+        if (std::ranges::none_of(inside, [&](const Covering& other) { return gives_way(one, other, place.range); })) {
+            left.push_back(&one);
+        }
     }
-    return best;
+    if (left.empty()) {  // lines that give way in a circle
+        std::ranges::transform(inside, std::back_inserter(left), [](const Covering& one) { return &one; });
+    }
+    if (!left.empty()) {
+        return (*std::ranges::max_element(left, {}, [](const Covering* c) { return *c->answer.capability; }))->answer;
+    }
+    if (because.empty()) {
+        because = "no entry of the scope names the result \"" + place.column.result + "\"";
+    }
+    return {.entry = {}, .outside_because = std::move(because), .capability = {}};
 }
 
 }  // namespace gumcert::reports

@@ -18,6 +18,7 @@ struct ScopePlace {
     std::size_t row = 0;
     std::size_t point = 0;               ///< position of the row among the points of the job
     double coverage_probability = 0.95;  ///< of its expanded uncertainty
+    std::string range = {};              ///< what the column "range" of the points has, "10 V"; "": nothing
 };
 
 /// What the scope of accreditation says of one value.
@@ -28,7 +29,12 @@ struct ScopeAnswer {
 };
 
 /// Looks a value up: name, method, place, ranges, capability. Where several lines of the scope cover it, the one with
-/// the largest capability holds, so that U is below none of them.
+/// the largest capability holds, so that U is below none of them. Where one line ends and the next one begins at the value,
+/// both above 0 (1 V to 10 V, 10 V to 1000 V), it belongs to the line that ends there: scopes are read as if the next one
+/// began above it. A point that states a range beyond the value (`range`) belongs to the line that begins there.
+///
+/// A capability in a ratio (%, ppm) is one of the quantity itself: of the first argument of capability or ranges that is of
+/// the kind of the result, else of the place where the result was measured.
 ///
 /// A capability states about 95 %. Where a result has another coverage probability (by more than 0.01), the capability
 /// is carried over as normal, k_p of the result over k_p of the capability.

@@ -118,6 +118,19 @@ private:
         return found == points_.end() ? row : found->second;
     }
 
+    /// What the column "range" says of a point, as people read it: "10 V"; "" where there is none.
+    [[nodiscard]] std::string range_of(std::size_t point) const {
+        if (!record_.points) {
+            return {};
+        }
+        for (const certificate::PointColumn& one : record_.points->columns) {  // each section may have one
+            if (one.name == "range" && point < one.printed.size() && !one.printed[point].empty()) {
+                return one.printed[point] + (one.unit.empty() ? "" : " " + one.unit);
+            }
+        }
+        return {};
+    }
+
     [[nodiscard]] const CertificateData& data() const { return record_.certificate->data; }
 
     /// What holds for a section: scope and capability depend on the method.
@@ -140,7 +153,8 @@ private:
                         .column = column,
                         .row = row,
                         .point = point_of(table, row),
-                        .coverage_probability = p},
+                        .coverage_probability = p,
+                        .range = range_of(point_of(table, row))},
                        value, result);
         PrintRule rule = rule_;
         if (result != nullptr) {

@@ -127,36 +127,98 @@ TEST(FindingList, TellsOneCauseOfManyPointsOnce) {
         return one;
     };
     FindingList list(certificate.data);
-    list.add_by_cause(table, table.columns[0],
-                      {{0, finding("D05", "no value can pass \"MPE 1\" by DR-03")},
-                       {1, finding("D05", "no value can pass \"MPE 1\" by DR-03")},
-                       {1, finding("D08", "probability of 12.5 %")},
-                       {2, finding("D08", "probability of 9 %")},
-                       {2, finding("D05", "no value can pass \"MPE 2\" by DR-03")},
-                       {3, finding("D05", "no value can pass \"MPE 1\" by DR-04")},
-                       {3, finding("D08", "probability of 1E-5 %", FindingSeverity::critical)}});
+    const auto found = [&](std::size_t row, Finding one, double badness = 0.0, std::size_t column = 0) {
+        return FoundInRow{.table = &table,
+                          .column = &table.columns[column],
+                          .row = row,
+                          .finding = std::move(one),
+                          .badness = badness};
+    };
+    list.add_by_cause(
+        {found(0, finding("D05", "no value can pass \"MPE 1\" by DR-03")),
+         found(1, finding("D05", "no value can pass \"MPE 1\" by DR-03")),
+         found(1, finding("D08", "probability of 12.5 %"), -0.125),
+         found(2, finding("D08", "probability of 9 %"), -0.09), found(3, finding("D08", "probability of 11 %"), -0.11),
+         found(2, finding("D05", "no value can pass \"MPE 2\" by DR-03")),
+         found(3, finding("D05", "no value can pass \"MPE 1\" by DR-04")),
+         found(1, finding("R02", "value 1.20 ends elsewhere")), found(0, finding("R02", "value 3.1 ends elsewhere")),
+         found(3, finding("D08", "probability of 1E-5 %", FindingSeverity::critical))});
     std::vector<std::string> told;
     for (const Finding& f : list.take()) {
         told.push_back(f.where + ": " + f.what);
     }
-    EXPECT_THAT(told, testing::ElementsAre("l, points 1, 2: no value can pass \"MPE 1\" by DR-03",
-                                           "l, points 2, 3: probability of 12.5 %; the numbers are those of point 2",
-                                           "l, point 3: no value can pass \"MPE 2\" by DR-03",
-                                           "l, point 4: no value can pass \"MPE 1\" by DR-04",
-                                           "l, point 4: probability of 1E-5 %"))
+    EXPECT_THAT(told, testing::ElementsAre(
+                          "l, points 1, 2: no value can pass \"MPE 1\" by DR-03",
+                          "l, points 2, 3, 4: probability of 9 %; the numbers are those of point 3, the worst of 3",
+                          "l, point 3: no value can pass \"MPE 2\" by DR-03",
+                          "l, point 4: no value can pass \"MPE 1\" by DR-04",
+                          "l, points 2, 1: value 1.20 ends elsewhere; the numbers are those of point 2",
+                          "l, point 4: probability of 1E-5 %"))
         << "names keep their numbers apart, and what is graver is another finding";
-    list.add_by_cause({}, table.columns[1], {{0, finding("R06", "the value is printed as -0.00")}});
+    const CertifiedTable without_points;
+    list.add_by_cause({{.table = &without_points,
+                        .column = &table.columns[1],
+                        .row = 0,
+                        .finding = finding("R06", "the value is printed as -0.00")}});
     EXPECT_EQ(only(list.take()).where, "EAA") << "of a table without points";
     std::vector<FoundInRow> many;
     table.argument->name = "angle";
     table.argument->printed.clear();
     for (std::size_t i = 0; i < 22; ++i) {
         table.argument->printed.push_back(std::to_string(10 * i));
-        many.push_back({i, finding("R06", "the value is printed as -0.00")});
+        many.push_back(found(i, finding("R06", "the value is printed as -0.00"), 0.0, 1));
     }
-    list.add_by_cause(table, table.columns[1], many);
+    list.add_by_cause(many);
     const std::string where = only(list.take()).where;
     EXPECT_TRUE(where.starts_with("EAA, angles 0, 10, 20") && where.ends_with("180, 190 and 2 more")) << where;
+}
+
+/// A specification over ten columns whose U is too large is one cause, and not ten.
+TEST(FindingList, TellsOneCauseOfManyResultsOnce) {
+    Certificate certificate = passed_certificate();
+    CertifiedTable& table = certificate.tables[0];
+    table.argument = CertifiedTable::Argument{
+        .name = "point", .unit = "", .printed_unit = "", .values = {{}, {}}, .printed = {"1", "2"}};
+    table.columns.resize(10, table.columns[0]);
+    for (std::size_t c = 0; c < table.columns.size(); ++c) {
+        table.columns[c].result = "E" + std::to_string(c);
+    }
+    CertifiedTable of_another_range = table;
+    of_another_range.argument->printed = {"3", "4"};
+    FindingList list(certificate.data);
+    const auto told = [&](const auto& is_found) {
+        std::vector<FoundInRow> found;
+        for (const CertifiedTable* of : {&table, &of_another_range}) {
+            for (const CertifiedColumn& column : of->columns) {
+                for (std::size_t row = 0; row < 2; ++row) {
+                    if (const double badness = is_found(*of, column, row); badness != 0.0) {
+                        Finding one;
+                        one.id = "D05";
+                        one.what = "U is " + std::to_string(static_cast<int>(badness)) + " mV";
+                        found.push_back(
+                            {.table = of, .column = &column, .row = row, .finding = one, .badness = badness});
+                    }
+                }
+            }
+        }
+        list.add_by_cause(found);
+        const Finding one = only(list.take());
+        return one.where + ": " + one.what;
+    };
+    EXPECT_EQ(told([](const auto&, const auto&, std::size_t) { return 7.0; }),
+              "E0, E1, E2, E3, E4, E5, E6, E7, E8, E9, points 1, 2, 3, 4: U is 7 mV");
+    EXPECT_EQ(
+        told([](const auto&, const CertifiedColumn& c, std::size_t row) {
+            return c.result == "E7" && row == 1 ? 9.0 : 7.0;
+        }),
+        "E0, E1, E2, E3, E4, E5, E6, E7, E8, E9, points 1, 2, 3, 4: U is 9 mV; the numbers are those of \"E7\" at "
+        "point 2, the worst of 40");
+    EXPECT_EQ(told([&](const CertifiedTable& t, const CertifiedColumn& c, std::size_t row) {
+                  const bool first = &t == &table && c.result == "E0";
+                  const bool second = &t == &of_another_range && c.result == "E1" && row == 0;
+                  return first || second ? 5.0 : 0.0;
+              }),
+              "E0[1], E0[2], E1[3]: U is 5 mV");
 }
 
 }  // namespace

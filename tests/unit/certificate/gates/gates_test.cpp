@@ -85,10 +85,12 @@ TEST(Gates, CompareNamesOfPersonsAlike) {
         LaboratoryRegister registered;
         registered.signatories.emplace_back().name = first;
         const std::vector<Finding> plausible = plausibility_findings(c);
+        CertificateData without_signatories = c.data;  // of whom P03 tells
+        without_signatories.accreditation->signatories.clear();
         return std::array<bool, 5>{
             has(completeness_findings(c), "P04"), has(plausible, "P07"),
             std::count_if(plausible.begin(), plausible.end(), [](const Finding& f) { return f.id == "P13"; }) == 3,
-            !has(symbol_findings(c), "P03"), !has(register_findings(c.data, registered), "P14")};
+            !has(symbol_findings(c), "P03"), !has(register_findings(without_signatories, registered), "P14")};
     };
     for (const char* spelt :
          {"A. Meier", "A.Meier", "a. meier", "A Meier", "A.  Meier", "A.\u00a0Meier", "Ａ. Meier"}) {

@@ -69,6 +69,69 @@ TEST(RegisterGate, TellsOneReasonOnce) {
                                      testing::AllOf(testing::StartsWith("V: "), testing::HasSubstr("STD-2"))));
 }
 
+/// What the dates of the row of a standard show is told by the gate on standards (T01, T05): the register does not repeat it.
+TEST(RegisterGate, DoesNotRepeatWhatTheDatesOfARowSay) {
+    const auto ids_with = [](const std::string& valid_to, const char* answer, bool is_of_validity,
+                             bool overdue = false) {
+        std::vector<std::string> ids;
+        for (
+            const Finding& one : with_register([&](CertificateData&data, LaboratoryRegister&r) {
+                data.standards[0].valid_to = valid_to;
+                r.uses = {{data.standards[0].identification, "V", answer, "its calibration was valid", is_of_validity}};
+                if (overdue) {
+                    r.overdue = {{data.standards[0].identification, "2026-11-19", "2020-01-01"}};
+                }
+            })) {
+            ids.push_back(one.id);
+        }
+        return ids;
+    };
+    using testing::ElementsAre;
+    using testing::IsEmpty;
+    EXPECT_THAT(ids_with("2020-01-01", "no", true), IsEmpty()) << "T01";
+    EXPECT_THAT(ids_with("2020-01-01", "no", true, true), IsEmpty()) << "T01 tells the day of the plan";
+    EXPECT_THAT(ids_with("2020-01-02", "no", true, true), ElementsAre("T14")) << "another day";
+    EXPECT_THAT(ids_with("", "unknown", true), IsEmpty()) << "T05";
+    EXPECT_THAT(ids_with("", "no", true), ElementsAre("T11")) << "T05 is less grave";
+    EXPECT_THAT(ids_with("2020-01-01", "no", false), ElementsAre("T11")) << "another reason";
+    EXPECT_THAT(ids_with("2029-01-01", "no", true), ElementsAre("T11")) << "the row says nothing against it";
+}
+
+TEST(RegisterGate, DoesNotRepeatWhatIsToldOfTheSignatory) {
+    const auto found = [](const auto& change) {
+        return with_register([&](CertificateData& data, LaboratoryRegister& r) {
+            data.status = "accredited";
+            data.accreditation.emplace().signatories = {data.persons.authorised_by->name};
+            change(data, r);
+        });
+    };
+    const auto no_signatory = [](CertificateData& data, LaboratoryRegister& r) {
+        data.accreditation->signatories = {"Another person"};
+        r.signatories[0].name = "Another person";
+    };
+    EXPECT_TRUE(found(no_signatory).empty()) << "P03 of the accreditation";
+    EXPECT_TRUE(found([&](CertificateData& data, LaboratoryRegister& r) {
+                    data.accreditation->signatories = {"Another person"};
+                    r.signatories[0].authorises = false;
+                }).empty());
+    EXPECT_EQ(found([&](CertificateData&, LaboratoryRegister& r) { r.signatories[0].authorises = false; }).size(), 1U);
+    EXPECT_EQ(found([&](CertificateData& data, LaboratoryRegister& r) {
+                  no_signatory(data, r);
+                  data.status = "not_accredited";
+              }).size(),
+              1U);
+    const auto run_out = [](CertificateData& data, LaboratoryRegister& r) {
+        r.signatories[0].to = "2020-01-01";
+        data.persons.authorised_by->authorised_to = "2020-01-01";
+    };
+    EXPECT_TRUE(found(run_out).empty()) << "P03 of the day";
+    EXPECT_EQ(found([&](CertificateData& data, LaboratoryRegister& r) {
+                  run_out(data, r);
+                  data.persons.authorised_by->authorised_to.clear();
+              }).size(),
+              1U);
+}
+
 TEST(RegisterGate, StandardsStandInRegisterAndList) {
     expect_finding(only(with_register([](CertificateData&, LaboratoryRegister& r) { r.not_registered = {"STD-9"}; })),
                    "T12", "ISO/IEC 17025:2017, 6.4", k_major, "/standards");

@@ -30,7 +30,9 @@ TEST(UncertaintyGate, CountsTheDigitsOfU) {
 TEST(UncertaintyGate, HoldsTheProfileToOneDigit) {
     Certificate c = passed_certificate();
     c.profile.digits = 1;
-    EXPECT_THAT(ids(uncertainty_findings(c)), testing::ElementsAre("R01", "R01"));
+    const Finding found = only(uncertainty_findings(c));
+    expect_finding(found, "R01", k_policy, FindingSeverity::major, "l, EAA");
+    EXPECT_TRUE(found.what.ends_with("; the numbers are those of \"l\"")) << found.what;
     for (CertifiedColumn& column : c.tables[0].columns) {
         column.values[0].raised = true;  // a capability keeps its two digits
     }

@@ -61,6 +61,15 @@ TEST(LaboratoryFolderTest, MayBeMissing) {
     EXPECT_THROW(job.files.refuse_if_needed(), gum::StorageError);
 }
 
+TEST(LaboratoryFolderTest, SaysWhatIsThereInPlaceOfWhatIsNot) {
+    const JobWithLaboratory job(test::sample_laboratory_files("lab/"), R"({"laboratory": "lab"})");
+    EXPECT_EQ(job.folder->others_than("standards", "STD-1"), std::nullopt);
+    EXPECT_THAT(job.folder->others_than("standards", "STD-2").value(), testing::ElementsAre("STD-1"));
+    EXPECT_THAT(job.folder->others_than("methods", "CUST-3").value(), testing::ElementsAre("CP-1"));
+    const JobWithLaboratory none({}, R"({"laboratory": "lab"})");
+    EXPECT_EQ(none.folder->others_than("standards", "STD-1"), std::nullopt) << "the folder is not there";
+}
+
 TEST(LaboratoryFolderTest, FilesHaveTheirIdentificationAsName) {
     JobWithLaboratory job({{"lab/standards/STD-2.json", std::string(test::k_sample_standard)}},
                           R"({"laboratory": "lab"})");

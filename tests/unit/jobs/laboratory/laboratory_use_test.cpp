@@ -72,6 +72,84 @@ TEST(LaboratoryUseTest, UnitAndDayMayComeFromRegisterAndInput) {
     EXPECT_EQ(job.inputs[0].components[0].source, "STD-1, certificate C-1");
 }
 
+/// What the folder does not have is no file that cannot be read: it is bad input, told once, with the names that there are.
+TEST(LaboratoryUseTest, NamesWhatTheFolderHas) {
+    const auto told = [](const json& job, const std::string& table = "") {
+        std::map<std::string, std::string> files = test::sample_laboratory_files("lab/");
+        files["p.csv"] = table;
+        std::vector<std::string> messages;
+        try {
+            (void)read(job, std::move(files));
+        } catch (const gum::InputError& error) {
+            for (const gum::Diagnostic& one : error.diagnostics()) {
+                messages.push_back(one.code + " " + gum::message(one));
+            }
+        }
+        return messages;
+    };
+    const json sound{{"V", {{"value", 1}, {"u", 1}}}};
+    const auto with = [&](const char* key, const json& value) {
+        json certificate = k_work;
+        certificate[key] = value;
+        return job_of(sound, certificate);
+    };
+    using testing::AllOf;
+    using testing::ElementsAre;
+    using testing::HasSubstr;
+    EXPECT_THAT(told(job_of({{"V", {{"standard", "STD-2"}}}}, k_work)),
+                ElementsAre(AllOf(HasSubstr("GC-LAB-0112"), HasSubstr("/inputs/V/standard"), HasSubstr("\"STD-2\""),
+                                  HasSubstr("lab/standards/"), HasSubstr("did you mean \"STD-1\"?"))));
+    EXPECT_THAT(told(with("customer", "ACME")),
+                ElementsAre(AllOf(HasSubstr("GC-LAB-0112"), HasSubstr("no such customer"), HasSubstr("\"CUST-3\""),
+                                  testing::Not(HasSubstr("did you mean")))));
+    EXPECT_THAT(told(with("customer", {{"id", "CUST-4"}, {"order", "1"}})),
+                ElementsAre(AllOf(HasSubstr("GC-LAB-0112"), HasSubstr("/customer/id"))));
+    EXPECT_THAT(told(with("method", "CP-2")), ElementsAre(AllOf(HasSubstr("GC-LAB-0112"), HasSubstr("\"CP-1\""))));
+    EXPECT_THAT(told(with("standards", json::array({"STD-2"}))), ElementsAre(HasSubstr("GC-LAB-0112")));
+    json points = job_of({{"V", {{"unit", "V"}}}, {"x", {{"unit", "V"}, {"u", 0.1}}}}, k_work);
+    points["model"] = {"y = x - V"};
+    points["points"] = {{"file", "p.csv"}};
+    EXPECT_THAT(told(points, "V.standard,x\nSTD-2,1\nSTD-2,2\nSTD-1,3\n"),
+                ElementsAre(AllOf(HasSubstr("GC-LAB-0112"), HasSubstr("p.csv:2:1"))));
+}
+
+/// U as a share of the value is that share of it, and the list of standards shows it with two digits.
+TEST(LaboratoryUseTest, TakesARelativeUncertainty) {
+    std::map<std::string, std::string> files = test::sample_laboratory_files("lab/");
+    json standard = json::parse(files["lab/standards/STD-1.json"]);
+    json& line = standard["/calibrations/1/results/0"_json_pointer];
+    line.erase("U");
+    line["relative_U"] = 2e-4;
+    files["lab/standards/STD-1.json"] = standard.dump();
+    const auto read_with = [&](const json& certificate) {
+        return read(job_of({{"V", {{"standard", "STD-1"}}}}, certificate), files);
+    };
+    const BudgetJob job = read_with(k_work);
+    EXPECT_DOUBLE_EQ(job.inputs[0].components[0].u, 0.5 * 2e-4 * 10.002);
+    ASSERT_EQ(job.certificate->standards.size(), 1U);
+    EXPECT_EQ(job.certificate->standards[0].U, 0.002);
+    const auto contradictions = [&](double U) {
+        json certificate = k_work;
+        certificate["standards"] = {
+            {{"identification", "STD-1"}, {"name", "Standard"}, {"U", U}, {"k", 2}, {"unit", "mV"}}};
+        files["job.json"] = job_of({{"V", {{"standard", "STD-1"}}}}, certificate).dump();
+        return register_of_job(MemoryFileSource(files), "job.json").value().contradictions;
+    };
+    EXPECT_TRUE(contradictions(2.0).empty()) << "to the digits that an uncertainty has";
+    EXPECT_TRUE(contradictions(2.0004).empty());
+    EXPECT_EQ(contradictions(2.1).size(), 1U);
+}
+
+TEST(LaboratoryUseTest, TellsContradictionsInPlainDigits) {
+    json certificate = k_work;
+    certificate["standards"] = {
+        {{"identification", "STD-1"}, {"name", "Standard"}, {"U", 6e-5}, {"k", 2}, {"unit", "V"}}};
+    const auto all = register_of(job_of({{"V", {{"standard", "STD-1"}}}}, certificate)).contradictions;
+    ASSERT_EQ(all.size(), 1U);
+    EXPECT_EQ(all[0].stated, "0.00006 V");
+    EXPECT_EQ(all[0].registered, "0.002 V");
+}
+
 TEST(LaboratoryUseTest, OwnComponentsStandBehindThoseOfTheRegister) {
     const BudgetJob job = read(job_of({{"V",
                                         {{"standard", "STD-1"},
@@ -82,7 +160,7 @@ TEST(LaboratoryUseTest, OwnComponentsStandBehindThoseOfTheRegister) {
     EXPECT_EQ(parts[1].u, 0.1);
 }
 
-/// A standard that cannot be read, or whose file is refused, is told as that, whatever the job makes of it: a model that lacks
+/// A standard that is not there, or whose file is refused, is told as that, whatever the job makes of it: a model that lacks
 /// its input is no fault of the model.
 TEST(LaboratoryUseTest, AFaultOfTheRegisterIsNoFaultOfTheModel) {
     const auto told = [](const json& job, std::map<std::string, std::string> files) {
@@ -130,9 +208,9 @@ TEST(LaboratoryUseTest, AFaultOfTheRegisterIsNoFaultOfTheModel) {
                     std::map<std::string, std::string> files = test::sample_laboratory_files("lab/");
                     files.erase("lab/standards/STD-1.json");
                     const std::vector<std::string> missing = told(job, files);
-                    EXPECT_THAT(missing, testing::ElementsAre(testing::HasSubstr("lab/standards/STD-1.json")));
-                    EXPECT_THAT(missing, testing::Each(testing::StartsWith("GC-STORAGE-0001")));
-                    EXPECT_THAT(missing, testing::Each(testing::HasSubstr("named at job.json#/inputs/V/standard")));
+                    EXPECT_THAT(missing, testing::ElementsAre(testing::HasSubstr("has no such standard")));
+                    EXPECT_THAT(missing, testing::Each(testing::StartsWith("GC-LAB-0112")));
+                    EXPECT_THAT(missing, testing::Each(testing::HasSubstr("job.json#/inputs/V/standard")));
                     files["lab/standards/STD-1.json"] =
                         R"j({"schema": "gumcert/standard/1", "id": "STD-1", "drif": 1})j";
                     const std::vector<std::string> refused = told(job, files);
@@ -533,7 +611,9 @@ TEST(LaboratoryUseTest, WhatIsWrongInARowIsToldWithItsCell) {
     const gum::Diagnostic no_folder = first(good, {{"laboratory", nullptr}});
     EXPECT_EQ(no_folder.code, "GC-LAB-0100");
     EXPECT_EQ(no_folder.where, "points.csv:2:5");
-    EXPECT_THAT(first(good + "high,STD-9,100 V\n").where, testing::HasSubstr("lab/standards/STD-9.json"));
+    const gum::Diagnostic no_standard = first(good + "high,STD-9,100 V\n");
+    EXPECT_EQ(no_standard.code, "GC-LAB-0112");
+    EXPECT_EQ(no_standard.where, "points.csv:3:6");
     EXPECT_EQ(first("point,V.standard,V.range,V\nlow,STD-1,10 V,3\n").code, "GC-INPUT-0301")
         << "a value of its own beside that of the register";
 }

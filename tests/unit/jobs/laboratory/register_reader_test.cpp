@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <functional>
 #include <string>
+#include <string_view>
 
 #include "jobs/certificate/certificate_codes.h"
 #include "jobs/laboratory/laboratory_codes.h"
@@ -60,6 +62,48 @@ TEST(RegisterReader, ReadsWhatAStandardStates) {
     EXPECT_EQ(record->drift.kind, laboratory::DriftKind::limit_per_year);
     EXPECT_EQ(record->drift.unit, "mV");
     EXPECT_EQ(record->drift.limit, 0.5);
+}
+
+TEST(RegisterReader, ReadsARelativeUncertainty) {
+    const auto changed = [](const std::function<void(json&)>& change) {
+        json file = sample_standard();
+        change(file["/calibrations/0/results/0"_json_pointer]);
+        return file;
+    };
+    const json relative = changed([](json& line) {
+        line.erase("U");
+        line["relative_U"] = 1e-4;
+        line["value"] = -10.001;
+    });
+    const JsonDocument document = parse_json_document(relative.dump(), "file.json");
+    ProblemList problems("file.json");
+    const auto record = read_standard(document, problems);
+    ASSERT_TRUE(record);
+    EXPECT_DOUBLE_EQ(record->calibrations[0].results[0].U, 1e-4 * 10.001);
+    using testing::ElementsAre;
+    const std::string_view code = k_laboratory_coverage.code;
+    EXPECT_THAT(codes_of(changed([](json& line) { line["relative_U"] = 1e-4; }), true), ElementsAre(code));
+    EXPECT_THAT(codes_of(changed([](json& line) { line.erase("U"); }), true), ElementsAre(code));
+    EXPECT_THAT(codes_of(changed([](json& line) {
+                             line.erase("U");
+                             line["relative_U"] = 1e-4;
+                             line["value"] = 0;
+                         }),
+                         true),
+                ElementsAre(code));
+    EXPECT_THAT(codes_of(changed([](json& line) {
+                             line.erase("U");
+                             line["relative_U"] = 1e-4;
+                             line["unit"] = "degC";
+                         }),
+                         true),
+                ElementsAre(code));
+    EXPECT_THAT(codes_of(changed([](json& line) {
+                             line.erase("U");
+                             line["relative_U"] = 2;
+                         }),
+                         true),
+                testing::SizeIs(1));
 }
 
 /// Lines of one certificate are told apart by their nominal values, and these by their units as well.

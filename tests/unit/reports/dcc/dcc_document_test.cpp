@@ -589,6 +589,45 @@ TEST(DccDocument, WritesASectionAsAMeasurementResult) {
     EXPECT_THAT(two, HasSubstr("<dcc:item id=\"item_1\">"));
 }
 
+// One instrument in several sections (DC voltage, resistance) is one item, to which all of them refer.
+TEST(DccDocument, WritesAnItemOfSeveralSectionsOnce) {
+    EvaluationRecord record = certified_budget();
+    certificate::Certificate& c = *record.certificate;
+    std::vector<std::string> quantities;
+    for (certificate::CertifiedTable& table : c.tables) {
+        table.section = "a";
+        for (const certificate::CertifiedColumn& column : table.columns) {
+            quantities.push_back(column.result);
+        }
+    }
+    for (const char* name : {"a", "b", "c"}) {
+        record.sections.push_back({.name = name, .title = {}, .quantities = quantities});
+        certificate::SectionData& own = c.data.sections.emplace_back();
+        own.section = name;
+        own.item = c.data.item;
+        own.item->serial_number = std::string(name) == "b" ? "SN-B" : "SN-A";
+        own.item->condition = std::string(name) == "c" ? "Seal broken" : "No damage seen";
+    }
+    const auto count = [](const std::string& text, const std::string& of) {
+        std::size_t n = 0;
+        for (std::size_t at = text.find(of); at != std::string::npos; at = text.find(of, at + 1)) {
+            ++n;
+        }
+        return n;
+    };
+    const std::string text = checked(record);
+    EXPECT_EQ(count(text, "<dcc:item id="), 2U);
+    EXPECT_EQ(count(text, "<dcc:measurementResult refId=\"item_2\">"), 2U);
+    EXPECT_EQ(count(text, "<dcc:measurementResult refId=\"item_3\">"), 1U);
+    EXPECT_EQ(count(text, "SN-A"), 1U);
+    EXPECT_THAT(text, HasSubstr("Seal broken")) << "what a section says of it is kept";
+    EXPECT_TRUE(business_rule_breaches(read_dcc_root(text, "own"), "own").empty());
+    c.data.item = *c.data.sections[0].item;  // that of the certificate, too
+    const std::string of_all = checked(record);
+    EXPECT_EQ(count(of_all, "<dcc:item id="), 2U);
+    EXPECT_EQ(count(of_all, "<dcc:measurementResult refId=\"item_1\">"), 2U);
+}
+
 /// Three points of a table, two of which are about pieces of a set.
 EvaluationRecord record_of_set() {
     EvaluationRecord record = test::sample_budget_record();

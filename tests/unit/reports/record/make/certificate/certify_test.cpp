@@ -52,6 +52,17 @@ EvaluationRecord one_result(double value, double U, const std::string& unit) {
     return record;
 }
 
+EvaluationRecord at_two_points(EvaluationRecord record) {
+    record.results.push_back(record.results.front());
+    certificate::PointTable& points = record.points.emplace();
+    points.points = {"a", "b"};
+    for (std::size_t p = 0; p < points.points.size(); ++p) {
+        record.results[p].point = points.points[p];
+        record.results[p].name = "l[" + points.points[p] + "]";
+    }
+    return record;
+}
+
 /// The sample data with one entry in the scope, for "l", and no specification.
 CertificateData data_with(const Capability& capability) {
     CertificateData data = test::sample_certificate_data();
@@ -317,6 +328,100 @@ TEST(Certify, TakesTheLargestOfSeveralCapabilities) {
     EXPECT_EQ(v.printed_U, "3.0");
 }
 
+certificate::ScopeEntry entry_of(const std::string& id, double low, double high, double U) {
+    certificate::ScopeEntry entry;
+    entry.id = id;
+    entry.results = {"l"};
+    entry.ranges = {{.argument = {.name = "L", .unit = "m", .of = "value"}, .low = low, .high = high}};
+    entry.capability = test::capability_of_one_value(U, "m");
+    return entry;
+}
+
+/// Where one range of the scope ends and the next one begins, the value belongs to the lower one.
+TEST(Certify, TakesTheRangeThatEndsAtTheValue) {
+    CertificateData data = data_with(test::capability_of_one_value(1.0, "m"));
+    const auto entry = [&](double value, std::vector<certificate::ScopeEntry> scope) {
+        data.accreditation->scope = std::move(scope);
+        return certified(one_result(value, 9.0, "m"), data).scope_entry;
+    };
+    const auto low = entry_of("low", 1.0, 100.0, 1.0);
+    const auto high = entry_of("high", 100.0, 1000.0, 3.0);
+    EXPECT_EQ(entry(100.0, {low, high}), "low");
+    EXPECT_EQ(entry(100.0, {high, low}), "low");
+    EXPECT_EQ(entry(-100.0, {high, low}), "low") << "of magnitudes";
+    EXPECT_EQ(entry(100.0001, {low, high}), "high");
+    EXPECT_EQ(entry(100.0, {low, entry_of("high", 99.0, 1000.0, 3.0)}), "high") << "both cover it: the larger one";
+    EXPECT_EQ(entry(0.0, {entry_of("below", -10.0, 0.0, 1.0), entry_of("above", 0.0, 10.0, 3.0)}), "above")
+        << "at 0 nobody knows which one is meant";
+    auto in_km = entry_of("high", 0.1, 1.0, 3.0);
+    in_km.ranges[0].argument.unit = "km";
+    EXPECT_EQ(entry(100.0, {low, in_km}), "low") << "in another unit";
+    auto of_other = high;
+    of_other.ranges[0].argument.of = "T";
+    data.parameters = {{.name = "T", .unit = "m", .value = 100.0}};
+    EXPECT_EQ(entry(100.0, {low, of_other}), "high") << "not of one quantity";
+    // The corner of two quantities: the lower one of each.
+    const auto cell = [&](const char* id, bool l, bool t, double U) {
+        auto one = l ? entry_of(id, 100.0, 1000.0, U) : entry_of(id, 1.0, 100.0, U);
+        one.ranges.push_back(
+            {.argument = {.name = "T", .unit = "m", .of = "T"}, .low = t ? 100.0 : 1.0, .high = t ? 200.0 : 100.0});
+        return one;
+    };
+    EXPECT_EQ(entry(100.0, {cell("hh", true, true, 4.0), cell("hl", true, false, 3.0), cell("lh", false, true, 2.0),
+                            cell("ll", false, false, 1.0)}),
+              "ll");
+    EXPECT_EQ(entry(100.0, {cell("hl", true, false, 3.0), cell("lh", false, true, 2.0)}), "hl");
+}
+
+TEST(Certify, TakesTheRangeOfTheScopeThatThePointIsIn) {
+    EvaluationRecord record = at_two_points(one_result(100.0, 9.0, "m"));
+    record.points->columns = {{.name = "range",
+                               .heading = {},
+                               .role = "",
+                               .stage = "",
+                               .unit = "",
+                               .printed_unit = "",
+                               .values = {{}, {}},
+                               .printed = {"100 m", "1 km"}}};
+    CertificateData data = data_with(test::capability_of_one_value(1.0, "m"));
+    data.accreditation->scope = {entry_of("low", 1.0, 100.0, 1.0), entry_of("high", 100.0, 1000.0, 3.0)};
+    const auto entries = [&] {
+        EvaluationRecord certified = record;
+        certify(certified, data, {}, {});
+        const auto& values = certified.certificate->tables.at(0).columns.at(0).values;
+        return values.at(0).scope_entry + " " + values.at(1).scope_entry;
+    };
+    EXPECT_EQ(entries(), "low high");
+    record.points->columns[0].printed = {"±1000 m", "long"};
+    EXPECT_EQ(entries(), "high low") << "what is no size says nothing";
+    record.points->columns[0].printed = {"10 V", "-1000 m"};
+    EXPECT_EQ(entries(), "low low");
+}
+
+/// "10 ppm" of the scope is 10 ppm of what was measured.
+TEST(Certify, TakesACapabilityThatIsAShare) {
+    CertificateData data = data_with(test::capability_of_one_value(1.0, "percent"));
+    const auto value = [&](double y, const std::string& unit) { return certified(one_result(y, 0.001, unit), data); };
+    EXPECT_THAT(value(100.0, "m").outside_because, HasSubstr("a share (\"percent\")")) << "of what, nobody says";
+    data.accreditation->scope[0].ranges = {
+        {.argument = {.name = "L", .unit = "mm", .of = "value"}, .low = 0.0, .high = 1e6}};
+    EXPECT_EQ(value(100.0, "m").capability, 1.0);
+    EXPECT_EQ(value(100.0, "m").printed_U, "1.0");
+    EXPECT_EQ(value(-100.0, "m").capability, 1.0);
+    EXPECT_THAT(value(0.0, "m").outside_because, HasSubstr("here one of 0"));
+    data.accreditation->scope[0].capability = Capability{
+        .form = "function", .unit = "ppm", .arguments = {{.name = "L", .unit = "km"}}, .expression = "10 + 1/L"};
+    EXPECT_NEAR(value(100.0, "m").capability.value(), 20e-6 * 100.0, 1e-12);
+    data.accreditation->scope[0].capability = test::capability_of_one_value(1.0, "percent");
+    data.accreditation->scope[0].ranges[0].argument.unit = "degC";
+    data.accreditation->scope[0].ranges[0].low = -100.0;
+    EXPECT_THAT(value(100.0, "degC").outside_because, HasSubstr("the capability has the unit")) << "of no origin";
+    data.accreditation->scope[0].ranges[0].argument.unit = "dB";
+    EXPECT_THAT(value(50.0, "dB").outside_because, HasSubstr("the capability has the unit"));
+    data.accreditation->scope[0].ranges.clear();
+    EXPECT_EQ(value(5.0, "percent").capability, 1.0) << "of a result that is a ratio it is a difference";
+}
+
 TEST(Certify, MarksResultsOfAnotherLaboratory) {
     CertificateData data = data_with(test::capability_of_one_value(1.0, "m"));
     data.external_results = {{.results = {"l"}, .provider = "Other laboratory"}};
@@ -426,16 +531,6 @@ TEST(Certify, PrintsNoDigitsOfAConvertedLimitInTheGuardBand) {
 }
 
 /// The record of one result with that result at the points "a" and "b".
-EvaluationRecord at_two_points(EvaluationRecord record) {
-    record.results.push_back(record.results.front());
-    certificate::PointTable& points = record.points.emplace();
-    points.points = {"a", "b"};
-    for (std::size_t p = 0; p < points.points.size(); ++p) {
-        record.results[p].point = points.points[p];
-        record.results[p].name = "l[" + points.points[p] + "]";
-    }
-    return record;
-}
 
 /// The result of another laboratory may be that of one point: what names mean is the same for specifications and for these.
 TEST(Certify, MarksOnePointThatAnotherLaboratoryProvided) {
