@@ -96,12 +96,16 @@ bool is_concentrated(const RotaryTableMeasurement& measurement, const std::vecto
     throw gum::NoResultError(std::move(problems));
 }
 
-void require_convergence(const SolveSummary& summary) {
+void require_convergence(const SolveSummary& summary, const RotaryTableMeasurement& measurement) {
     if (!summary.converged) {
+        // In the place of micrometres, a stated uncertainty in millimetres makes the distances a thousand times stiffer than
+        // what is known of the fixture, and no step comes to an end.
         throw gum::NoResultError(gum::Diagnostic{
             "GC-ADJUST-0005", "adjustment", "did not converge (" + summary.message + ")",
             "a result is the minimum of the weighted squares",
-            "check that stations, reflectors and angles of the lengths are not interchanged, and the start values",
+            "check that stations, reflectors and angles of the lengths are not interchanged, the start values, and the "
+            "stated standard uncertainty of a length, " +
+                micrometres(measurement.length_uncertainty.u_constant, 6),
             gum::Severity::error});
     }
 }
@@ -358,7 +362,7 @@ private:
     void solve(JointAdjustment& adjustment, const SolverOptions& solver) {
         normal.emplace();
         const SolveSummary summary = adjustment.adjustment().refine(solver, *normal);
-        require_convergence(summary);
+        require_convergence(summary, adjustment.measurement());
         iterations += summary.iterations;
         covariance = normal->bordered_covariance();
     }
@@ -499,9 +503,9 @@ WithoutScaleErrors without_scale_errors_of(const std::vector<GroupTest>& told, c
         without.emplace(corrected, adjustment.active(), adjustment.set_up(), adjustment.present_values(), stochastic);
         without->adjustment().set_workers(options.workers);
         // Not from where the error has led the temperatures.
-        require_convergence(without->adjustment().solve(options.solver));
+        require_convergence(without->adjustment().solve(options.solver), corrected);
         without->set_weights(stochastic);
-        require_convergence(without->adjustment().refine(options.solver));
+        require_convergence(without->adjustment().refine(options.solver), corrected);
         normal.emplace(without->adjustment().linearise());
         const Eigen::VectorXd left =
             scale_errors_of_stations(*without, *normal, normal->bordered_covariance(), stations);
@@ -572,7 +576,7 @@ GroupTests groups_of(const JointAdjustment& adjustment, const NormalEquations& n
     try {
         JointAdjustment again = adjustment;
         again.set_weights(variances_without(*near, adjustment, estimated, stochastic, options));
-        require_convergence(again.adjustment().refine(options.solver));
+        require_convergence(again.adjustment().refine(options.solver), again.measurement());
         const NormalEquations at = again.adjustment().linearise();
         GroupTests closer = test_groups(again, at, at.bordered_covariance(), group_options);
         if (std::ranges::any_of(closer.tests, &GroupTest::suspicious)) {
@@ -958,7 +962,7 @@ Adjusted adjust_and_test(const RotaryTableMeasurement& measurement, StartSearch&
         require_rank(first);
         summary = first.adjustment().solve(rough);
     }
-    require_convergence(summary);
+    require_convergence(summary, measurement);
     require_rank(first);
     iteration.iterations += summary.iterations;
 
