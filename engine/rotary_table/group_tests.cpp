@@ -795,11 +795,17 @@ private:
     /// The coefficient of the fixture is one for all stations. One that is wrong makes the distances of each too long or too
     /// short by its temperature, and of the warmest the most: that station would be told for its scale.
     [[nodiscard]] std::optional<Candidate> best_expansion() {
+        constexpr int k_temperature = 4;  // in the block of a station
         VisitEffects::Effect effect(visits_.size());
         for (std::size_t g = 0; g < visits_.size(); ++g) {
-            if (!visits_.is_out(g)) {
-                // What is stated too large predicts distances that are not observed.
-                effect[g] = -adjustment_.adjustment().jacobian(g, adjustment_.expansion_block());
+            const std::size_t station = adjustment_.visits()[g].station;
+            const double adjusted =
+                adjustment_.adjustment().parameters(adjustment_.station_block(station))[k_temperature];
+            if (!visits_.is_out(g) && adjusted != 0.0) {
+                // What is stated too large predicts distances that are not observed. At the temperatures that are stated: a
+                // station with a scale error has taken it for one of its own, and would be the warmest of all.
+                const double stated = adjustment_.measurement().temperature_difference[static_cast<Index>(station)];
+                effect[g] = -stated / adjusted * adjustment_.adjustment().jacobian(g, adjustment_.expansion_block());
             }
         }
         // At one temperature it is the size of the fixture: then that is told, which names the temperature as well.
@@ -808,10 +814,34 @@ private:
             return std::nullopt;
         }
         const double coefficient = adjustment_.measurement().expansion - test->estimate;
-        if (coefficient < k_least_expansion || coefficient > k_most_expansion) {
+        if (coefficient < k_least_expansion || coefficient > k_most_expansion || scales_explain_more(*test)) {
             return std::nullopt;
         }
         return Candidate{*test, [this, effect] { visits_.take_away(effect, 1); }};
+    }
+
+    /// Whether scales of the stations, each its own, explain clearly more than one coefficient: then some stations have errors
+    /// of their own, which follow the temperatures by chance.
+    [[nodiscard]] bool scales_explain_more(const GroupTest& expansion) const {
+        constexpr double k_share = 0.05;  // less is what a large error does to the linear model
+        const auto stations = std::ssize(adjustment_.measurement().stations);
+        VisitEffects::Effect effect(visits_.size());
+        for (Index j = 0; j < stations; ++j) {
+            const VisitEffects::Effect own = effect_of_scale(adjustment_, visits_, static_cast<std::size_t>(j));
+            for (std::size_t g = 0; g < own.size(); ++g) {
+                if (own[g].size() > 0) {
+                    effect[g] = MatrixXd::Zero(own[g].rows(), stations);
+                    effect[g].col(j) = own[g];
+                }
+            }
+        }
+        const VisitEffects::Projection projection = visits_.projection(effect, stations);
+        const Inverted inverted = pseudo_inverse(projection.spread, k_controlled * projection.weight);
+        const double more =
+            projection.weighted.dot(inverted.inverse * projection.weighted) / (used_scale_ * used_scale_) -
+            expansion.chi_square;
+        return inverted.rank > 1 && more > k_share * expansion.chi_square &&
+               judged(GroupKind::expansion, more, inverted.rank - 1, 1).suspicious;
     }
 
     /// A station whose senses of approach are interchanged: at each visit the reversal is off, with the other sign. What all
