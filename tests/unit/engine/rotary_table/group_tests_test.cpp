@@ -10,6 +10,7 @@
 #include <cmath>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "engine/rotary_table/evaluation/rotary_table_evaluation.h"
@@ -221,6 +222,32 @@ TEST(GroupTests, TellAWrongExpansionCoefficientBeforeTheStations) {
     alike.temperature_difference.setConstant(5.0);
     const GroupTests groups = tests_of(alike);
     EXPECT_EQ(groups.tests.front().kind, GroupKind::fixture_scale) << told(groups);
+}
+
+// Scales of two stations follow the temperatures in part by chance, and the more so as the adjustment takes them for temperatures.
+TEST(GroupTests, ScalesOfTwoStationsAreNeitherExpansionNorAnythingElse) {
+    for (const auto& [second, fifth] : {std::pair{100e-6, -30e-6}, std::pair{20e-6, 20e-6}, std::pair{20e-6, -20e-6}}) {
+        CampaignPlan plan;
+        plan.angles_deg = synthetic::full_turn(12);
+        plan.both_senses = true;
+        plan.temperature_difference = -0.2;
+        plan.u_temperature = 0.03;
+        plan.expansion = 11.5e-6;
+        plan.u_expansion = 0.5e-6;
+        plan.seed = 5;
+        RotaryTableMeasurement measurement = simulate(plan).measurement;
+        for (LengthObservation& length : measurement.lengths) {
+            length.length *= 1.0 + (length.station == 1 ? second : length.station == 4 ? fifth : 0.0);
+        }
+        const GroupTests groups = tests_of(measurement);
+        for (const GroupTest& test : groups.tests) {
+            if (test.suspicious) {
+                EXPECT_EQ(test.kind, GroupKind::station_scale) << told(groups);
+                EXPECT_TRUE(test.station == 1 || test.station == 4) << told(groups);
+            }
+        }
+        EXPECT_EQ(std::ranges::count_if(groups.tests, &GroupTest::suspicious), 2) << told(groups);
+    }
 }
 
 // What the reversal does at a station whose senses are interchanged its place between two passes would take up.
