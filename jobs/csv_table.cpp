@@ -1,4 +1,5 @@
 #include "jobs/csv_table.h"
+#include "text/csv_field.h"
 #include "text/lists.h"
 #include "text/place.h"
 #include "text/utf8.h"
@@ -31,7 +32,15 @@ bool all_digits(std::string_view text) {
 class Scanner {
 public:
     Scanner(std::string_view text, Storage& storage, ProblemList& problems, char separator = ',')
-        : text_(text), storage_(storage), problems_(problems), separator_(separator) {}
+        : text_(text), storage_(storage), problems_(problems), separator_(separator) {
+        // Its characters are no fields, but they count in the places of messages.
+        if (const std::optional<text::SeparatorLine> line = text::separator_line(text)) {
+            while (offset_ < line->length) {
+                advance();
+            }
+            skip_line_end();
+        }
+    }
 
     [[nodiscard]] bool at_end() const { return offset_ >= text_.size(); }
 
@@ -329,6 +338,9 @@ bool refuse_other_separator(const std::vector<CsvCell>& header, ProblemList& pro
 }  // namespace
 
 char csv_separator(std::string_view text) {
+    if (const std::optional<text::SeparatorLine> line = text::separator_line(text)) {
+        return line->separator;
+    }
     bool is_quoted = false;
     bool has_semicolon = false;
     bool has_begun = false;
@@ -450,7 +462,7 @@ std::optional<CsvTable> read_csv_table(std::string bytes, std::span<const std::s
         table.cells_.insert(table.cells_.end(), fields.begin(), fields.end());
     }
     table.decimal_comma_ =
-        separator == ';' && std::any_of(table.cells_.begin(), table.cells_.end(),
+        separator != ',' && std::any_of(table.cells_.begin(), table.cells_.end(),
                                         [](const CsvCell& cell) { return has_decimal_comma(cell.text); });
     if (row_count == 0) {
         problems.refuse(k_csv_no_rows, text::visible(problems.file()), "a header and no rows",
@@ -549,8 +561,10 @@ std::optional<Eigen::MatrixXd> read_csv_matrix(const std::string& bytes, std::si
     const std::size_t problems_before = problems.refusals();
     Storage storage;
     // A matrix has no header: a semicolon in it separates columns, and a comma beside it is that of a number.
-    const char separator = text->find(';') == std::string_view::npos ? ',' : ';';
-    const bool decimal_comma = separator == ';' && text->find(',') != std::string_view::npos;
+    const char separator = text::separator_line(*text)                 ? csv_separator(*text)
+                           : text->find(';') == std::string_view::npos ? ','
+                                                                       : ';';
+    const bool decimal_comma = separator != ',' && text->find(',') != std::string_view::npos;
     Scanner scanner(*text, storage, problems, separator);
     std::vector<CsvCell> fields;
     const auto size = static_cast<Eigen::Index>(order);

@@ -27,8 +27,9 @@ struct CsvCell {
     std::uint32_t column = 1;
 };
 
-/// What separates the fields of a table: a semicolon where the first line that is not blank has one and no comma outside
-/// of double quotes, as spreadsheets of countries with a decimal comma write it; else a comma.
+/// What separates the fields of a table: what a first line "sep=;" states; else a semicolon where the first line that is not
+/// blank has one and no comma outside of double quotes, as spreadsheets of countries with a decimal comma write it; else a
+/// comma.
 /// \param text  without byte order mark
 [[nodiscard]] char csv_separator(std::string_view text);
 
@@ -85,7 +86,8 @@ private:
 };
 
 /// Reads a table: UTF-8, LF or CRLF, comma, decimal point, a header with names, at least one row. Blank lines are
-/// skipped. Where columns are separated by semicolons (csv_separator), numbers may have decimal commas: all of them then.
+/// skipped, and so is a first line that states the separator (text::separator_line). Where columns are not separated by commas
+/// (csv_separator), numbers may have decimal commas: all of them then.
 ///
 /// A column that nobody asked for is a warning. Rows that are ragged are refused and left out of the table.
 /// \return nothing when the text cannot be read as this table; with problems in single rows, the table *and* refusals

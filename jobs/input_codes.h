@@ -99,6 +99,8 @@ inline constexpr InputCode k_repeated_angle{"GC-INPUT-0227", "a planned angle oc
 inline constexpr InputCode k_limits_reversed{"GC-INPUT-0228", "a lower limit above the upper one"};
 inline constexpr InputCode k_layout_too_large{"GC-INPUT-0229", "a layout or a study that is larger than allowed"};
 inline constexpr InputCode k_bad_exclusion{"GC-INPUT-0232", "an exclusion that names no distance, or has no reason"};
+inline constexpr InputCode k_rounded_lengths{"GC-INPUT-0233",
+                                             "lengths rounded by far more than their stated uncertainty"};
 inline constexpr InputCode k_bad_machine_frame{"GC-INPUT-0236", "points that do not tell the frame of the machine"};
 inline constexpr InputCode k_bad_reversal{"GC-INPUT-0237", "a reversal that the measurement cannot tell"};
 
@@ -183,6 +185,9 @@ inline constexpr InputCode k_warn_step_passed{"GC-WARN-0016",
 inline constexpr InputCode k_warn_range_of_no_point{"GC-WARN-0017", "the accuracy of a range that no point has"};
 inline constexpr InputCode k_warn_point_not_shown{"GC-WARN-0018", "a specified point whose row a table does not name"};
 inline constexpr InputCode k_warn_roles_without_points{"GC-WARN-0019", "roles of quantities in a job without points"};
+inline constexpr InputCode k_warn_rounded_lengths{"GC-WARN-0026",
+                                                  "lengths rounded by more than their stated uncertainty"};
+inline constexpr InputCode k_warn_rounded_alike{"GC-WARN-0027", "repeated lengths that are rounded alike"};
 inline constexpr InputCode k_warn_unusual_coverage_factor{"GC-WARN-0021",
                                                           "a coverage factor that is perhaps a coverage probability"};
 
@@ -262,6 +267,7 @@ inline constexpr std::array k_input_codes{k_file_too_large,
                                           k_limits_reversed,
                                           k_layout_too_large,
                                           k_bad_exclusion,
+                                          k_rounded_lengths,
                                           k_bad_machine_frame,
                                           k_bad_reversal,
                                           k_no_statement,
@@ -325,6 +331,8 @@ inline constexpr std::array k_input_codes{k_file_too_large,
                                           k_warn_beyond_range,
                                           k_warn_step_passed,
                                           k_warn_range_of_no_point,
-                                          k_warn_point_not_shown};
+                                          k_warn_point_not_shown,
+                                          k_warn_rounded_lengths,
+                                          k_warn_rounded_alike};
 
 }  // namespace gumcert::jobs

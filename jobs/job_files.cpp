@@ -1,5 +1,6 @@
 #include "jobs/job_files.h"
 #include "jobs/csv_table.h"
+#include "text/csv_field.h"
 #include "text/visible_text.h"
 
 #include <algorithm>
@@ -165,7 +166,8 @@ std::vector<CsvHeaderField> csv_header(std::string_view bytes) {
     if (bytes.starts_with("\xEF\xBB\xBF")) {
         bytes.remove_prefix(3);
     }
-    std::size_t start = 0;
+    const std::optional<text::SeparatorLine> separator_stated = text::separator_line(bytes);
+    std::size_t start = separator_stated ? separator_stated->length : 0;
     while (start < bytes.size() && (bytes[start] == '\n' || bytes[start] == '\r')) {
         ++start;
     }
@@ -196,7 +198,8 @@ std::vector<CsvHeaderField> csv_header(std::string_view bytes) {
     ProblemList not_told("");
     const std::size_t end = std::min(bytes.find_first_of("\r\n", start), bytes.size());
     const bool is_text = check_text(bytes.substr(0, end), not_told).has_value();
-    const bool is_separated = fields.size() != 1 || fields.front().name.find_first_of(";\t|") == std::string::npos;
+    const bool is_separated =
+        separator_stated || fields.size() != 1 || fields.front().name.find_first_of(";\t|") == std::string::npos;
     return is_text && is_separated ? fields : std::vector<CsvHeaderField>();
 }
 

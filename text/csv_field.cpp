@@ -6,6 +6,8 @@
 #include <string_view>
 #include <system_error>
 
+#include "text/small_letters.h"
+
 namespace gumcert::text {
 
 namespace {
@@ -60,6 +62,27 @@ std::string csv_field(const std::string& text) {
 
 std::string quoted_csv_field(const std::string& text) {
     return in_quotes(harmless(text));
+}
+
+std::optional<SeparatorLine> separator_line(std::string_view text) {
+    std::string_view line = text.substr(0, std::min(text.find_first_of("\r\n"), text.size()));
+    const std::size_t length = line.size();
+    // A spreadsheet that stores what it has read with it as a row writes "sep=;", in quotes, or one separator for each column.
+    const bool is_quoted = line.size() > 2 && line.front() == '"' && line.back() == '"';
+    if (is_quoted) {
+        line = line.substr(1, line.size() - 2);
+    }
+    constexpr std::string_view k_name = "sep=";
+    constexpr std::string_view k_separators = ",;\t|";
+    if (line.size() <= k_name.size() || in_small_letters(line.substr(0, k_name.size())) != k_name) {
+        return std::nullopt;
+    }
+    const char separator = line[k_name.size()];
+    if (k_separators.find(separator) == std::string_view::npos ||
+        line.find_first_not_of(separator, k_name.size()) != std::string_view::npos) {
+        return std::nullopt;
+    }
+    return SeparatorLine{separator, length};
 }
 
 }  // namespace gumcert::text

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <string>
+#include <string_view>
 
 namespace gumcert::text {
 
@@ -9,5 +12,13 @@ namespace gumcert::text {
 [[nodiscard]] std::string csv_field(const std::string& text);
 /// The same, and quoted whatever it holds.
 [[nodiscard]] std::string quoted_csv_field(const std::string& text);
+
+/// A first line "sep=;" that is no row, but states the separator, as spreadsheets write and read it.
+struct SeparatorLine {
+    char separator = ',';    ///< a comma, a semicolon, a tab or a bar
+    std::size_t length = 0;  ///< bytes of the line, without its end
+};
+/// \param text  without byte order mark
+[[nodiscard]] std::optional<SeparatorLine> separator_line(std::string_view text);
 
 }  // namespace gumcert::text

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "gum/quantity/diagnostic.h"
+#include "text/csv_field.h"
 #include "text/utf8.h"
 #include "text/visible_text.h"
 #include "workbook/letters.h"
@@ -82,7 +83,14 @@ std::optional<double> printed_number(std::string_view digits, char mark) {
 class CsvReader {
 public:
     CsvReader(std::string_view text, std::string file, Sheet& sheet)
-        : text_(text), file_(std::move(file)), sheet_(sheet), separator_(most_common_separator(text)) {}
+        : text_(text), file_(std::move(file)), sheet_(sheet) {
+        const std::optional<text::SeparatorLine> line = text::separator_line(text);
+        separator_ = line ? line->separator : most_common_separator(text);
+        if (line) {
+            at_ =
+                line->length;  // its characters are no cells; the rows below it have the numbers that a spreadsheet shows
+        }
+    }
 
     void read() {
         while (at_ < text_.size()) {
@@ -167,7 +175,7 @@ private:
     std::string_view text_;
     std::string file_;
     Sheet& sheet_;
-    char separator_;
+    char separator_ = ',';
     std::size_t at_ = 0;
     CellAddress address_;
 };

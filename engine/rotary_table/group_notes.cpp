@@ -43,7 +43,7 @@ std::string place_of(const GroupTest& test, const RotaryTableMeasurement& measur
                measurement.stations[test.station] + ", pass " + measurement.passes[test.pass] + ", " +
                angle_of(measurement, test.angle);
     }
-    if (test.kind == GroupKind::fixture_scale) {
+    if (test.kind == GroupKind::fixture_scale || test.kind == GroupKind::expansion) {
         return "fixture";
     }
     if (test.station == GroupTest::k_none) {
@@ -75,6 +75,16 @@ std::string scale_of(const GroupTest& test, const RotaryTableMeasurement& measur
                 (is_smaller ? "colder" : "warmer") + " than stated";
     }
     return text;
+}
+
+/// "the distances give an expansion coefficient of 11.4 · 10⁻⁶/K for the fixture, while 23.5 · 10⁻⁶/K is stated, with u = 0.5 · 10⁻⁶/K"
+std::string expansion_of(const GroupTest& test, const RotaryTableMeasurement& measurement) {
+    const auto per_kelvin = [](double value, int digits) {
+        return text::significant(value * 1e6, digits) + " · 10⁻⁶/K";
+    };
+    return "the distances give an expansion coefficient of " + per_kelvin(measurement.expansion - test.estimate, 3) +
+           " for the fixture, while " + per_kelvin(measurement.expansion, 3) +
+           " is stated, with u = " + per_kelvin(measurement.u_expansion, 2);
 }
 
 std::string what_of(const GroupTest& test, const RotaryTableMeasurement& measurement) {
@@ -125,6 +135,11 @@ std::string what_of(const GroupTest& test, const RotaryTableMeasurement& measure
         case GroupKind::fixture_place:
             return "from this visit on the fixture stood " + size_of(test.estimate) +
                    " away from where it was on the table before (root mean square of its reflectors)";
+        case GroupKind::expansion:
+            return expansion_of(test, measurement);
+        case GroupKind::senses:
+            return "the distances of this station agree with the others when the senses + and - of its passes are "
+                   "interchanged";
     }
     return "";
 }
@@ -142,6 +157,7 @@ std::string exclusion_of(const GroupTest& test, const RotaryTableMeasurement& me
         case GroupKind::angle_index:
         case GroupKind::station:
         case GroupKind::station_scale:
+        case GroupKind::senses:
             selectors = "\"station\": \"" + measurement.stations[test.station] + "\"";
             break;
         case GroupKind::pair_length:
@@ -161,6 +177,7 @@ std::string exclusion_of(const GroupTest& test, const RotaryTableMeasurement& me
         case GroupKind::succession:
         case GroupKind::fixture_scale:
         case GroupKind::fixture_place:
+        case GroupKind::expansion:
             return "";
     }
     return " The job leaves these distances out with \"exclude\": [{ " + selectors + ", \"reason\": \"why\" }].";
@@ -255,6 +272,14 @@ std::string action_of(const GroupTest& test, const RotaryTableMeasurement& measu
                    "and at the temperature of the fixture while they were measured.";
         case GroupKind::fixture_place:
             return "Look at the clamping of the fixture: it was moved on the table there; fasten it and measure again.";
+        case GroupKind::expansion:
+            return "Look at the material of the fixture and at its expansion coefficient; then at the temperatures at "
+                   "the "
+                   "stations and at the reference temperature of the coordinates.";
+        case GroupKind::senses:
+            return "See in the protocol in which senses this station drove the table, and correct the directions in "
+                   "the "
+                   "lengths file.";
     }
     return "";
 }

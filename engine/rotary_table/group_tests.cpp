@@ -30,6 +30,10 @@ constexpr double k_deviate_of_power = 0.841621233572914;  // of the normal distr
 constexpr std::size_t k_most_suspects = 40;               // groups that are taken away one after the other
 constexpr int k_most_steps = 18;                          // by which the angles of a station are looked at to be off
 constexpr double k_most_amplitude = 3.5;  // of the effect of angles that are off: J/(J - 2) of three stations is 3
+constexpr double k_most_off_of_reversal = 0.4;  // of the reversal: by more an effect is not that of interchanged senses
+constexpr double k_least_expansion = -10e-6;    // [1/K], of what a fixture is made of
+constexpr double k_most_expansion = 200e-6;
+constexpr double k_clearly_more = 1.02;  // of chi-square: what explains the same in other words explains it to rounding
 constexpr std::size_t k_fewest_for_scatter = 8;    // visits: fewer say nothing of a scatter
 constexpr std::size_t k_drift_hypotheses = 3;      // all stations alike, each its own, one station
 constexpr std::size_t k_most_angle_bounds = 36;    // between which a reflector is looked at to stand elsewhere
@@ -47,6 +51,11 @@ double critical_chi_square(const GroupTestOptions& options, double probability, 
         (options.chi_square_upper_tail(middle, degrees_of_freedom) > probability ? low : high) = middle;
     }
     return high;
+}
+
+/// Kinds that have their level from kinds of one side, and no row of their own where nothing is wrong.
+bool only_where_suspicious(GroupKind kind) {
+    return kind == GroupKind::expansion || kind == GroupKind::senses;
 }
 
 /// Both tests of one visit.
@@ -86,6 +95,9 @@ public:
         for (std::size_t g = 0; g < visits_.size(); ++g) {
             poses_.push_back(adjustment.pose_jacobian(g));
         }
+        for (int c = 0; c < 6 && adjustment.has_reversal() && !adjustment.reversal_by_angle(); ++c) {
+            reversal_.push_back(normal.column(adjustment.reversal_block(), c));
+        }
     }
 
     GroupTests run() {
@@ -97,9 +109,23 @@ public:
         std::vector<std::optional<Candidate>> last;
         for (std::size_t round = 0; round < std::min(k_most_suspects, visits_.size() / 4); ++round) {
             misfit_of_fixture_ = largest_fixture_misfit();
-            last = {best_visit(), best_change(),       best_place(),           best_pair(),
-                    best_drift(), best_index(),        best_place_at_angles(), best_place_from_visit(),
-                    best_scale(), best_fixture_place()};
+            const std::optional<Candidate> senses = best_senses();
+            std::optional<Candidate> place = best_place();
+            if (is_interchange(place, senses)) {
+                place.reset();
+            }
+            last = {best_visit(),
+                    best_change(),
+                    place,
+                    best_pair(),
+                    best_drift(),
+                    best_index(),
+                    best_place_at_angles(),
+                    best_place_from_visit(),
+                    best_scale(),
+                    best_fixture_place(),
+                    best_expansion(),
+                    senses};
             const std::optional<Candidate> worst = least_probable(last);
             if (!worst || !worst->test.suspicious) {
                 break;
@@ -110,7 +136,7 @@ public:
             sequences();
         }
         for (const std::optional<Candidate>& candidate : last) {
-            if (candidate && !candidate->test.suspicious) {
+            if (candidate && !candidate->test.suspicious && !only_where_suspicious(candidate->test.kind)) {
                 result_.tests.push_back(candidate->test);
             }
         }
@@ -692,15 +718,16 @@ private:
 
     /// The test of one size along an effect, without its place. Nothing where the parameters take the effect up wholly, and where a
     /// displaced reflector or a fixture of another size explains more at the same weights: then it is they.
+    /// \param more  how many times as much as they it must explain
     [[nodiscard]] std::optional<GroupTest> test_of_one_size(GroupKind kind, const VisitEffects::Effect& effect,
-                                                            std::size_t count) const {
+                                                            std::size_t count, double more = 1.0) const {
         const VisitEffects::Projection projection = visits_.projection(effect, 1);
         const double spread = projection.spread(0, 0);
         if (!(spread > k_controlled * projection.weight)) {
             return std::nullopt;
         }
         const double chi_square = projection.weighted[0] * projection.weighted[0] / spread;
-        if (chi_square < misfit_of_fixture_) {
+        if (chi_square < more * misfit_of_fixture_) {
             return std::nullopt;
         }
         GroupTest test = judged(kind, chi_square / (used_scale_ * used_scale_), 1, count);
@@ -763,6 +790,103 @@ private:
             take(best, {*test, [this, effect] { visits_.take_away(effect, 1); }});
         }
         return best;
+    }
+
+    /// The coefficient of the fixture is one for all stations. One that is wrong makes the distances of each too long or too
+    /// short by its temperature, and of the warmest the most: that station would be told for its scale.
+    [[nodiscard]] std::optional<Candidate> best_expansion() {
+        constexpr int k_temperature = 4;  // in the block of a station
+        VisitEffects::Effect effect(visits_.size());
+        for (std::size_t g = 0; g < visits_.size(); ++g) {
+            const std::size_t station = adjustment_.visits()[g].station;
+            const double adjusted =
+                adjustment_.adjustment().parameters(adjustment_.station_block(station))[k_temperature];
+            if (!visits_.is_out(g) && adjusted != 0.0) {
+                // What is stated too large predicts distances that are not observed. At the temperatures that are stated: a
+                // station with a scale error has taken it for one of its own, and would be the warmest of all.
+                const double stated = adjustment_.measurement().temperature_difference[static_cast<Index>(station)];
+                effect[g] = -stated / adjusted * adjustment_.adjustment().jacobian(g, adjustment_.expansion_block());
+            }
+        }
+        // At one temperature it is the size of the fixture: then that is told, which names the temperature as well.
+        std::optional<GroupTest> test = test_of_one_size(GroupKind::expansion, effect, 1, k_clearly_more);
+        if (!test) {
+            return std::nullopt;
+        }
+        const double coefficient = adjustment_.measurement().expansion - test->estimate;
+        if (coefficient < k_least_expansion || coefficient > k_most_expansion || scales_explain_more(*test)) {
+            return std::nullopt;
+        }
+        return Candidate{*test, [this, effect] { visits_.take_away(effect, 1); }};
+    }
+
+    /// Whether scales of the stations, each its own, explain clearly more than one coefficient: then some stations have errors
+    /// of their own, which follow the temperatures by chance.
+    [[nodiscard]] bool scales_explain_more(const GroupTest& expansion) const {
+        constexpr double k_share = 0.05;  // less is what a large error does to the linear model
+        const auto stations = std::ssize(adjustment_.measurement().stations);
+        VisitEffects::Effect effect(visits_.size());
+        for (Index j = 0; j < stations; ++j) {
+            const VisitEffects::Effect own = effect_of_scale(adjustment_, visits_, static_cast<std::size_t>(j));
+            for (std::size_t g = 0; g < own.size(); ++g) {
+                if (own[g].size() > 0) {
+                    effect[g] = MatrixXd::Zero(own[g].rows(), stations);
+                    effect[g].col(j) = own[g];
+                }
+            }
+        }
+        const VisitEffects::Projection projection = visits_.projection(effect, stations);
+        const Inverted inverted = pseudo_inverse(projection.spread, k_controlled * projection.weight);
+        const double more =
+            projection.weighted.dot(inverted.inverse * projection.weighted) / (used_scale_ * used_scale_) -
+            expansion.chi_square;
+        return inverted.rank > 1 && more > k_share * expansion.chi_square &&
+               judged(GroupKind::expansion, more, inverted.rank - 1, 1).suspicious;
+    }
+
+    /// A station whose senses of approach are interchanged: at each visit the reversal is off, with the other sign. What all
+    /// stations say of the reversal holds a part of the fault, in some directions more than half: compared is what this station
+    /// says of it, as if it were not known, with what the others say.
+    [[nodiscard]] std::optional<Candidate> best_senses() {
+        std::optional<Candidate> best;
+        if (reversal_.empty()) {
+            return best;
+        }
+        const Eigen::Matrix<double, 6, 1> of_all = adjustment_.mean_reversal();
+        const std::size_t stations = adjustment_.measurement().stations.size();
+        for (std::size_t j = 0; j < stations; ++j) {
+            VisitEffects::Effect free(visits_.size());
+            VisitEffects::Effect effect = free;
+            for (std::size_t g = 0; g < visits_.size(); ++g) {
+                const Visit& visit = adjustment_.visits()[g];
+                if (visit.station == j && !visits_.is_out(g)) {
+                    free[g] = poses_[g] * (visit.approach == Approach::positive ? -1.0 : 1.0);
+                }
+            }
+            const VisitEffects::Projection projection = visits_.projection(free, 6);
+            const VectorXd own =
+                pseudo_inverse(projection.spread, k_controlled * projection.weight).inverse * projection.weighted;
+            const VectorXd of_others = of_all - visits_.shift_of_parameters(free, 6)(reversal_, Eigen::all) * own;
+            for (std::size_t g = 0; g < visits_.size(); ++g) {
+                if (free[g].size() > 0) {
+                    effect[g] = free[g] * of_others;
+                }
+            }
+            std::optional<GroupTest> test = test_of_one_size(GroupKind::senses, effect, stations);
+            // What has another size is another fault, or the reversal is hardly there.
+            if (!test || std::abs(test->estimate - 1.0) > k_most_off_of_reversal) {
+                continue;
+            }
+            test->station = j;
+            take(best, {*test, [this, effect] { visits_.take_away(effect, 1); }});
+        }
+        return best;
+    }
+    /// Whether a place of its own between two passes explains no more of a station than interchanged senses, of which a rigid
+    /// reversal moves it just so.
+    static bool is_interchange(const std::optional<Candidate>& place, const std::optional<Candidate>& senses) {
+        return place && senses && senses->test.suspicious && place->test.station == senses->test.station &&
+               place->test.chi_square < senses->test.chi_square + place->test.critical_value;
     }
 
     /// The whole fixture, moved on the table: a clamp that gave way, a hand at the set-up between two stations. The table,
@@ -1280,6 +1404,7 @@ private:
     const GroupTestOptions& options_;
     VisitEffects visits_;
     std::vector<MatrixXd> poses_;
+    std::vector<Index> reversal_;  ///< parameters of one reversal of all angles; empty: there is none
     std::vector<VisitTest> tests_;
     std::vector<std::vector<std::size_t>> sequences_;
     mutable std::map<std::pair<int, double>, double> limits_;  ///< by degrees of freedom and level
@@ -1299,7 +1424,7 @@ private:
 }  // namespace
 
 double share_of_level(GroupKind kind) {
-    // They add up to 0.9. The tenth that is left is that of the check of the fixture (ADR 0031).
+    // They add up to 0.9 with the half of succession and station that is theirs. The tenth that is left is that of the check of the fixture (ADR 0031).
     switch (kind) {
         case GroupKind::drift:
             return 0.365;
@@ -1323,6 +1448,9 @@ double share_of_level(GroupKind kind) {
         case GroupKind::fixture_scale:
         case GroupKind::station_scale:
         case GroupKind::fixture_place:
+        // Half of what succession and station have is not theirs: large values of one sign only count there.
+        case GroupKind::expansion:
+        case GroupKind::senses:
             return 0.005;
     }
     return 0.0;

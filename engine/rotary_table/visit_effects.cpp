@@ -241,12 +241,17 @@ MatrixXd VisitEffects::pull_of(const Effect& effect, Index q) const {
     return pull;
 }
 
-VisitEffects::Effect VisitEffects::columns(const Effect& effect, Index q) const {
+MatrixXd VisitEffects::shift_of_parameters(const Effect& effect, Index q) const {
     const MatrixXd pull = pull_of(effect, q);
-    MatrixXd shift(covariance_.size(), q);  // of the parameters
+    MatrixXd shift(covariance_.size(), q);
     for (Index k = 0; k < q; ++k) {
         shift.col(k) = covariance_.times(pull.col(k));
     }
+    return shift;
+}
+
+VisitEffects::Effect VisitEffects::columns(const Effect& effect, Index q) const {
+    const MatrixXd shift = shift_of_parameters(effect, q);
     Effect result;
     for (std::size_t h = 0; h < groups_.size(); ++h) {
         const LinearisedGroup& group = *groups_[h];

@@ -68,6 +68,8 @@ public:
     [[nodiscard]] Projection projection(const Effect& effect, Eigen::Index q) const;
     /// Cᵀ V⁻¹ v of one column.
     [[nodiscard]] double weighted(const Effect& effect) const;
+    /// What effects do to the parameters when they are in the distances, parameters×q.
+    [[nodiscard]] Eigen::MatrixXd shift_of_parameters(const Effect& effect, Eigen::Index q) const;
     /// What all that was left out after the first `from` takes from Cᵀ M C.
     [[nodiscard]] Eigen::MatrixXd taken_from(const Effect& effect, Eigen::Index q, std::size_t from) const;
     [[nodiscard]] std::size_t left_out_count() const { return left_out_.size(); }

@@ -10,6 +10,7 @@
 #include "gum/quantity/units.h"
 #include "jobs/rotary_table/rotary_table_layout.h"
 #include "jobs/rotary_table/rotary_table_limits.h"
+#include "jobs/rotary_table/rotary_table_rounding.h"
 #include "text/numbers.h"
 #include "text/visible_text.h"
 
@@ -116,6 +117,9 @@ public:
             check_units_and_span(rows, problems);
         }
         store_lengths(rows);
+        if (places_.is_whole) {
+            check_rounding(reading_);
+        }
         return std::move(places_);
     }
 

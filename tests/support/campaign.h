@@ -45,7 +45,7 @@ inline Files small_campaign() {
                     const std::string name = "P" + std::to_string(station);
                     lengths += name + ",R" + std::to_string(reflector) + "," + name + sign + "," + sign + "," +
                                std::to_string(angle) + ".0," + std::to_string(400 + 100 * station + angle) + "." +
-                               std::to_string(10 + reflector) + "," + name + "\n";
+                               std::to_string(10 + reflector) + "00" + std::to_string(reflector) + "," + name + "\n";
                 }
             }
         }

@@ -97,12 +97,16 @@ bool is_concentrated(const RotaryTableMeasurement& measurement, const std::vecto
     throw gum::NoResultError(std::move(problems));
 }
 
-void require_convergence(const SolveSummary& summary) {
+void require_convergence(const SolveSummary& summary, const RotaryTableMeasurement& measurement) {
     if (!summary.converged) {
+        // In the place of micrometres, a stated uncertainty in millimetres makes the distances a thousand times stiffer than
+        // what is known of the fixture, and no step comes to an end.
         throw gum::NoResultError(gum::Diagnostic{
             "GC-ADJUST-0005", "adjustment", "did not converge (" + summary.message + ")",
             "a result is the minimum of the weighted squares",
-            "check that stations, reflectors and angles of the lengths are not interchanged, and the start values",
+            "check that stations, reflectors and angles of the lengths are not interchanged, the start values, and the "
+            "stated standard uncertainty of a length, " +
+                micrometres(measurement.length_uncertainty.u_constant, 6),
             gum::Severity::error});
     }
 }
@@ -357,7 +361,7 @@ private:
     void solve(JointAdjustment& adjustment, const SolverOptions& solver) {
         normal.emplace();
         const SolveSummary summary = adjustment.adjustment().refine(solver, *normal);
-        require_convergence(summary);
+        require_convergence(summary, adjustment.measurement());
         iterations += summary.iterations;
         covariance = normal->bordered_covariance();
     }
@@ -470,8 +474,8 @@ struct WithoutScaleErrors {
 
 /// \param told  stations and their errors, from where the search begins
 WithoutScaleErrors without_scale_errors_of(const std::vector<GroupTest>& told, const JointAdjustment& adjustment,
-                                           const StochasticModel& stochastic, const EvaluationOptions& options,
-                                           const GroupTestOptions& group_options) {
+                                           const EstimatedComponents& estimated, StochasticModel stochastic,
+                                           const EvaluationOptions& options, const GroupTestOptions& group_options) {
     constexpr int k_most_corrections = 8;
     constexpr double k_settled = 1e-3;  // of the error: it is told with three digits
     const auto count = std::ssize(told);
@@ -498,9 +502,9 @@ WithoutScaleErrors without_scale_errors_of(const std::vector<GroupTest>& told, c
         without.emplace(corrected, adjustment.active(), adjustment.set_up(), adjustment.present_values(), stochastic);
         without->adjustment().set_workers(options.workers);
         // Not from where the error has led the temperatures.
-        require_convergence(without->adjustment().solve(options.solver));
+        require_convergence(without->adjustment().solve(options.solver), corrected);
         without->set_weights(stochastic);
-        require_convergence(without->adjustment().refine(options.solver));
+        require_convergence(without->adjustment().refine(options.solver), corrected);
         normal.emplace(without->adjustment().linearise());
         const Eigen::VectorXd left =
             scale_errors_of_stations(*without, *normal, normal->bordered_covariance(), stations);
@@ -512,13 +516,26 @@ WithoutScaleErrors without_scale_errors_of(const std::vector<GroupTest>& told, c
             left_before[j] = left[j];
         }
     }
+    // The variances were estimated with the errors in, which were charged to some of the components only: at those weights
+    // something else would be told that is none.
+    const Progress silent;
+    Iteration iteration(estimated, silent);
+    SolverOptions solver = options.solver;
+    solver.step_tolerance = std::max(solver.step_tolerance, k_step_of_a_check);
+    iteration.settle(*without, stochastic, options.max_component_iterations,
+                     std::max(options.component_tolerance, k_component_of_a_check), solver);
+    iteration.take_plausible(stochastic);
+    without->set_weights(stochastic);
+    require_convergence(without->adjustment().refine(options.solver), corrected);
+    normal.emplace(without->adjustment().linearise());
     return {error, test_groups(*without, *normal, normal->bordered_covariance(), group_options)};
 }
 
 /// Groups of a measurement of which stations have scale errors: how large they are, and what else is suspicious, from the
 /// distances without them. An error of many ppm moves the temperature of the fixture at the station so far from what is stated
 /// that the linearised tests are not those of the measurement, and the scale of a second station is told as another cause.
-GroupTests without_scale_errors(GroupTests groups, const JointAdjustment& adjustment, const StochasticModel& stochastic,
+GroupTests without_scale_errors(GroupTests groups, const JointAdjustment& adjustment,
+                                const EstimatedComponents& estimated, const StochasticModel& stochastic,
                                 const EvaluationOptions& options, const GroupTestOptions& group_options) {
     if (groups.tests.empty() || !groups.tests.front().suspicious ||
         groups.tests.front().kind != GroupKind::station_scale) {
@@ -528,7 +545,8 @@ GroupTests without_scale_errors(GroupTests groups, const JointAdjustment& adjust
     const std::size_t most = adjustment.measurement().stations.size() / 2;  // of more it is the others that are wrong
     try {
         for (std::size_t round = 0; round < std::max<std::size_t>(most, 1); ++round) {
-            WithoutScaleErrors without = without_scale_errors_of(told, adjustment, stochastic, options, group_options);
+            WithoutScaleErrors without =
+                without_scale_errors_of(told, adjustment, estimated, stochastic, options, group_options);
             for (std::size_t k = 0; k < told.size(); ++k) {
                 told[k].estimate = without.errors[static_cast<Eigen::Index>(k)];
             }
@@ -562,7 +580,7 @@ GroupTests groups_of(const JointAdjustment& adjustment, const NormalEquations& n
                      const StochasticModel& stochastic, const EvaluationOptions& options,
                      const GroupTestOptions& group_options) {
     GroupTests groups = without_scale_errors(test_groups(adjustment, normal, covariance, group_options), adjustment,
-                                             stochastic, options, group_options);
+                                             estimated, stochastic, options, group_options);
     const GroupTest* const near = nearly_suspicious(groups, group_options);
     const bool told = std::ranges::any_of(groups.tests, &GroupTest::suspicious);
     if (told || near == nullptr || !(estimated.length || estimated.table)) {
@@ -571,7 +589,7 @@ GroupTests groups_of(const JointAdjustment& adjustment, const NormalEquations& n
     try {
         JointAdjustment again = adjustment;
         again.set_weights(variances_without(*near, adjustment, estimated, stochastic, options));
-        require_convergence(again.adjustment().refine(options.solver));
+        require_convergence(again.adjustment().refine(options.solver), again.measurement());
         const NormalEquations at = again.adjustment().linearise();
         GroupTests closer = test_groups(again, at, at.bordered_covariance(), group_options);
         if (std::ranges::any_of(closer.tests, &GroupTest::suspicious)) {
@@ -955,7 +973,7 @@ Adjusted adjust_and_test(const RotaryTableMeasurement& measurement, StartSearch&
         require_rank(first);
         summary = first.adjustment().solve(rough);
     }
-    require_convergence(summary);
+    require_convergence(summary, measurement);
     require_rank(first);
     iteration.iterations += summary.iterations;
 

@@ -28,6 +28,27 @@ double misfit_with(const RotaryTableMeasurement& measurement, const LabelHypothe
     return std::min(left, misfit_with(measurement, {.lengths = 1.0 / hypothesis.fixture}, station, active, closely));
 }
 
+/// Whether the labels as they are stated explain the station from the place that a factor has led to. A station that hardly
+/// sees its distances bend has a place at half of them: a reflector that moves along a slant line moves half as far. It is
+/// followed as the factor goes to 1.
+bool stated_explain_as_well(const RotaryTableMeasurement& measurement, const LabelHypothesis& factor,
+                            std::size_t station, const std::vector<bool>& active, double least) {
+    constexpr int k_steps = 16;
+    if (factor.lengths < 0.0 || (factor.lengths == 1.0 && factor.fixture == 1.0 && factor.angles == 1.0)) {
+        return false;
+    }
+    StationFit fit = PlaceSearch(relabelled(measurement, station, factor), active).fit_of(station, true);
+    for (int k = 1; k <= k_steps; ++k) {
+        const double part = 1.0 - static_cast<double>(k) / k_steps;
+        LabelHypothesis nearer = factor;
+        nearer.lengths = std::pow(factor.lengths, part);
+        nearer.fixture = std::pow(factor.fixture, part);
+        nearer.angles = std::pow(factor.angles, part);
+        fit = PlaceSearch(relabelled(measurement, station, nearer), active).fit_near(station, fit);
+    }
+    return fit.upright_misfit() < least;
+}
+
 /// A wrong guess of labels lowers the misfit by chance, and that of a station that fits very badly a good deal. The right
 /// one removes nearly all of it, and leaves what error motions do. [m]
 double most_with_right_labels(double misfit) {
@@ -65,6 +86,10 @@ std::optional<LabelHypothesis> labels_of_station(const RotaryTableMeasurement& m
         const double reached =
             some == active ? order[k].first : misfit_with(measurement, hypothesis, station, active, true);
         if (reached < least) {
+            // Then it is the search that did not find the place, and no other labels are right.
+            if (stated_explain_as_well(measurement, hypothesis, station, active, least)) {
+                return std::nullopt;
+            }
             least = reached;
             best = hypothesis;
         }
@@ -99,7 +124,8 @@ std::optional<LabelHypothesis> scale_of_station(const RotaryTableMeasurement& me
     const double logarithm = gum::least_by_golden_section(misfit_at, -std::log(k_most), std::log(k_most), k_steps);
     const LabelHypothesis found{.lengths = std::exp(logarithm), .scale = true};
     if (std::abs(found.lengths - 1.0) > k_least && std::abs(logarithm) < k_inside * std::log(k_most) &&
-        misfit_with(measurement, found, station, active, true) < most_with_right_labels(misfit)) {
+        misfit_with(measurement, found, station, active, true) < most_with_right_labels(misfit) &&
+        !stated_explain_as_well(measurement, found, station, active, most_with_right_labels(misfit))) {
         return found;
     }
     return std::nullopt;

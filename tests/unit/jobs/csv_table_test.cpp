@@ -6,6 +6,8 @@
 #include <array>
 #include <string>
 
+#include "jobs/job_files.h"
+
 namespace gumcert::jobs {
 namespace {
 
@@ -127,6 +129,33 @@ TEST(CsvTable, ReadsSemicolonsWithDecimalPoints) {
     ASSERT_TRUE(table);
     EXPECT_EQ(table->number(0, 0, {}), 1.234);
     EXPECT_EQ(table->number_text(0, 0), "1.234");
+}
+
+// Spreadsheets read and write a first line that states the separator; it is no header.
+TEST(CsvTable, HonoursALineThatStatesTheSeparator) {
+    for (const std::string separator : {";", ",", "\t", "|"}) {
+        ProblemList problems("t.csv");
+        const std::string s = separator;
+        const auto table =
+            read_csv_table("\xEF\xBB\xBFsep=" + s + "\r\nname" + s + "x_mm" + s + "run\r\nä" + s + "1.5" + s + "2\r\n",
+                           k_columns, {}, problems);
+        ASSERT_TRUE(table) << separator;
+        EXPECT_EQ(table->rows(), 1U);
+        EXPECT_EQ(table->number(0, 1, {}), 1.5);
+        EXPECT_EQ(table->where(table->cell(0, 1)), "t.csv:3:3") << "lines count as they stand in the file";
+        EXPECT_EQ(problems.refusals(), 0U);
+        EXPECT_TRUE(problems.warnings().empty());
+        EXPECT_EQ(csv_header("sep=" + s + "\nname" + s + "x_mm\n").size(), 2U);
+    }
+    ProblemList problems("t.csv");
+    const auto commas = read_csv_table("sep=\t\nname\tx_mm\trun\na\t1,5\t2\n", k_columns, {}, problems);
+    ASSERT_TRUE(commas);
+    EXPECT_EQ(commas->number(0, 1, {}), 1.5);
+    expect_refusal("sep=,\nname;x_mm;run\na;1;2\n", k_csv_separator, "t.csv:2:1", "separated by semicolons");
+    expect_refusal("sep=;\n", k_empty_file, "t.csv", "the file is empty");
+    const auto matrix = read_csv_matrix("sep=;\n1,5;2\n3;4\n", 2, "µm²", problems);
+    ASSERT_TRUE(matrix);
+    EXPECT_EQ((*matrix)(0, 0), 1.5);
 }
 
 TEST(CsvTable, RefusesPointsAmongDecimalCommas) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace gumcert::text {
 namespace {
 
@@ -34,6 +36,21 @@ TEST(CsvField, QuotedIsTheSameInQuotes) {
         EXPECT_EQ(quoted_csv_field(field), plain.starts_with('"') ? plain : '"' + plain + '"') << field;
     }
     EXPECT_EQ(quoted_csv_field("=\""), "\"'=\"\"\"");
+}
+
+TEST(SeparatorLine, IsAFirstLineThatStatesOneSeparator) {
+    for (const char* text : {"sep=;", "sep=;\nx;y\n", "SEP=;\r\nx", "\"sep=;\"\nx", "sep=;;;\nx"}) {
+        const std::optional<SeparatorLine> line = separator_line(text);
+        ASSERT_TRUE(line) << text;
+        EXPECT_EQ(line->separator, ';') << text;
+        EXPECT_EQ(line->length, std::min(std::string_view(text).find_first_of("\r\n"), std::string_view(text).size()));
+    }
+    EXPECT_EQ(separator_line("sep=,\nx")->separator, ',');
+    EXPECT_EQ(separator_line("sep=\t\nx")->separator, '\t');
+    EXPECT_EQ(separator_line("sep=|\nx")->separator, '|');
+    for (const char* text : {"", "sep=", "sep", "sep=x", "sep=;x", "sep=;,", "\nsep=;", "sep;x\n", "sep=1;2\n"}) {
+        EXPECT_FALSE(separator_line(text)) << text;
+    }
 }
 
 }  // namespace

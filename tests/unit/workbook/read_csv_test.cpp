@@ -49,6 +49,12 @@ TEST(ReadCsv, FindsTheSeparator) {
     EXPECT_EQ(cells_of_csv("one"), "A1=one");
 }
 
+TEST(ReadCsv, HonoursALineThatStatesTheSeparator) {
+    EXPECT_EQ(cells_of_csv("sep=;\na;b,c\n1,5;2\n"), "A2=a B2=b,c A3=1.500000[1,5] B3=2.000000[2]");
+    EXPECT_EQ(cells_of_csv("sep=|\r\na|b;c\r\n"), "A2=a B2=b;c");
+    EXPECT_EQ(cells_of_csv("sep=;x\n"), "A1=sep= B1=x") << "a row like any other";
+}
+
 TEST(ReadCsv, ReadsDecimalCommasBehindSemicolons) {
     EXPECT_EQ(cells_of_csv("a;1,50\nb;2\n"), "A1=a B1=1.500000[1,50] A2=b B2=2.000000[2]");
     EXPECT_EQ(cells_of_csv("a;1,5;1.5\n"), "A1=a B1=1.500000[1,5] C1=1.5")

@@ -43,9 +43,11 @@ std::pair<const char*, double> unit_of_kind(GroupKind kind) {
         case GroupKind::angle_index:
         case GroupKind::succession:
         case GroupKind::station:
+        case GroupKind::senses:
             return {"1", 1.0};
         case GroupKind::fixture_scale:
         case GroupKind::station_scale:
+        case GroupKind::expansion:  // in a kelvin
             return {"ppm", 1e-6};
         default:
             return {"um", gum::k_micrometre};
@@ -401,6 +403,10 @@ const char* group_kind_name(GroupKind kind) {
             return "station_scale";
         case GroupKind::fixture_place:
             return "fixture_place";
+        case GroupKind::expansion:
+            return "expansion";
+        case GroupKind::senses:
+            return "senses";
     }
     return "";
 }

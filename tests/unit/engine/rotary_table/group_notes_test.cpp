@@ -49,12 +49,26 @@ TEST(GroupNotes, AStationThatMovedWithTheSenseMayHaveItsSensesInterchanged) {
     EXPECT_THAT(action(), HasSubstr("Look at the support of the station"));
 }
 
+TEST(GroupNotes, SayWhatIsStatedOfTheExpansionAndWhatTheDistancesGive) {
+    RotaryTableMeasurement measurement = two_stations();
+    measurement.expansion = 23.5e-6;
+    measurement.u_expansion = 0.5e-6;
+    GroupTest test = suspicious(GroupKind::expansion);
+    test.estimate = 12.1e-6;
+    const gum::Diagnostic note = group_notes({.tests = {test}, .visits = {}}, measurement)[0];
+    EXPECT_EQ(note.where, "fixture");
+    EXPECT_THAT(note.what, HasSubstr("give an expansion coefficient of 11.4 · 10⁻⁶/K for the fixture, while 23.5 · "
+                                     "10⁻⁶/K is stated, with u = 0.5 · 10⁻⁶/K"));
+    EXPECT_THAT(note.action, testing::Not(HasSubstr("exclude")));
+}
+
 TEST(GroupNotes, SayWhichGroupByHowMuchAndWhatToDo) {
     for (const GroupKind kind :
          {GroupKind::visit_length, GroupKind::visit_pose, GroupKind::dead_path_change, GroupKind::station_place,
           GroupKind::pair_length, GroupKind::drift, GroupKind::angle_index, GroupKind::succession, GroupKind::station,
           GroupKind::reflector, GroupKind::reflector_at_angles, GroupKind::reflector_from_visit,
-          GroupKind::fixture_scale, GroupKind::station_scale, GroupKind::fixture_place}) {
+          GroupKind::fixture_scale, GroupKind::station_scale, GroupKind::fixture_place, GroupKind::expansion,
+          GroupKind::senses}) {
         const auto notes = group_notes({.tests = {suspicious(kind)}, .visits = {}}, two_stations());
         ASSERT_EQ(notes.size(), 1U);
         EXPECT_EQ(notes[0].code, k_suspicious_group);

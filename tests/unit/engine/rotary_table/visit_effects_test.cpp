@@ -54,6 +54,7 @@ struct DenseVisits {
             }
         }
         M -= pull.transpose() * Q * pull;
+        gain = Q * pull;
     }
     /// Estimates an error of the columns C, rows×q.
     void take_away(const Eigen::MatrixXd& C) {
@@ -78,6 +79,8 @@ struct DenseVisits {
         EXPECT_LT((found.weighted - pulled).norm(), 1e-9 * pulled.norm());
         EXPECT_LT((found.spread - spread).norm(), 1e-9 * spread.norm());
         EXPECT_NEAR(visits.weighted(effect) / pulled[0], 1.0, 1e-9);
+        const Eigen::MatrixXd shift = gain * C;
+        EXPECT_LT((visits.shift_of_parameters(effect, q) - shift).norm(), 1e-9 * shift.norm());
     }
 
     synthetic::Campaign campaign;
@@ -87,6 +90,7 @@ struct DenseVisits {
     std::vector<Eigen::Index> first;  // row of each visit
     Eigen::VectorXd weighted;         // V⁻¹v
     Eigen::MatrixXd M;
+    Eigen::MatrixXd gain;  // of the parameters by the distances
 };
 
 /// Three columns at the distances of every other visit.

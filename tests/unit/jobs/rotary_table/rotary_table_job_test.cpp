@@ -59,6 +59,20 @@ std::function<void(Files&)> with_content(const std::string& file, const std::str
     return [=](Files& files) { files[file] = content; };
 }
 
+/// The lengths of the small campaign with fewer decimals.
+std::string rounded_lengths(const std::string& lengths, std::size_t decimals) {
+    std::istringstream lines(lengths);
+    std::string text;
+    for (std::string line; std::getline(lines, line);) {
+        if (!text.empty()) {
+            const std::size_t point = line.find('.', line.find(".0,") + 1);
+            line.erase(point + 1 + decimals, line.find(',', point) - point - 1 - decimals);
+        }
+        text += line + "\n";
+    }
+    return text;
+}
+
 /// A frame of the machine by its points, and other keys beside it.
 std::function<void(Files&)> with_machine(const std::string& points, const std::string& keys = {},
                                          const std::string& by = "probing") {
@@ -337,6 +351,9 @@ const std::vector<BadInput>& bad_inputs() {
          "lengths.csv:3:24", "\"500,12\" looks like a number with a decimal comma"},
         {"lengths_quoted_decimal_comma", with_line("lengths.csv", 3, "P1,R2,P1+,+,0.0,\"500,12\",P1"),
          k_csv_decimal_comma, "lengths.csv:3:17", "\"500,12\" in column length_mm"},
+        {"lengths_rounded", [](Files& files) { files["lengths.csv"] = rounded_lengths(files["lengths.csv"], 2); },
+         k_rounded_lengths, "job.json#/length_uncertainty (line 7, column 25)",
+         "all lengths are rounded to multiples of 10 µm"},
         {"lengths_bars", [](Files& files) { replace_all(files.at("lengths.csv"), ",", "|"); }, k_csv_separator,
          "lengths.csv:1:1", "separated by bars"},
         {"lengths_tabs", [](Files& files) { replace_all(files.at("lengths.csv"), ",", "\t"); }, k_csv_separator,
@@ -638,7 +655,7 @@ TEST(RotaryTableJob, ReadsTheSmallCampaignInSi) {
     EXPECT_EQ(length.angle, 2U);
     EXPECT_EQ(length.dead_path, 1U);
     EXPECT_EQ(length.approach, engine::Approach::negative);
-    EXPECT_DOUBLE_EQ(length.length, 0.69012);
+    EXPECT_DOUBLE_EQ(length.length, 0.69012002);
     EXPECT_EQ(length.line, lengths_line(3, 2, 1));
     EXPECT_DOUBLE_EQ(m.fixture(2, 1), -0.0995);
     ASSERT_EQ(m.fixture_covariance.rows(), 12);
@@ -870,6 +887,47 @@ TEST(RotaryTableJob, AcceptsDisplayedLengthsThatAreNegative) {
     const RotaryTableJob job = read(files);
     EXPECT_DOUBLE_EQ(job.measurement.lengths[1].length, -0.50012);
     EXPECT_EQ(job.measurement.lengths[2].length, 0.0);
+}
+
+/// The small campaign with fewer decimals of its lengths, and what is stated of them.
+Files rounded_campaign(std::size_t decimals, const std::string& stated) {
+    Files files = small_campaign();
+    files.at("lengths.csv") = rounded_lengths(files.at("lengths.csv"), decimals);
+    replace(files.at("job.json"), "\"u_constant_um\": 0.05", stated);
+    return files;
+}
+
+// Digits that say less than the stated uncertainty: the weights would rest on it, and U with them.
+TEST(RotaryTableJob, LengthsThatAreRoundedByFarMoreThanTheirUncertaintyAreRefused) {
+    const auto refused = refusals(rounded_campaign(2, "\"u_constant_um\": 0.25"));
+    ASSERT_EQ(refused.size(), 1U);
+    EXPECT_EQ(refused[0].code, k_rounded_lengths.code);
+    EXPECT_EQ(refused[0].where, "job.json#/length_uncertainty (line 7, column 25)");
+    EXPECT_THAT(
+        gum::message(refused[0]),
+        HasSubstr("all lengths are rounded to multiples of 10 µm, and rounding alone has a standard uncertainty of "
+                  "2.9 µm, while 0.25 µm is stated"));
+    EXPECT_THAT(gum::message(refused[0]), HasSubstr("step/√12 (JCGM 100:2008, F.2.2.1)"));
+    EXPECT_THAT(gum::message(refused[0]), HasSubstr("\"resolution_um\": 10"));
+    EXPECT_EQ(refusals(rounded_campaign(2, "\"u_constant_um\": 0.25, \"resolution_um\": 1")).size(), 1U);
+}
+
+TEST(RotaryTableJob, LengthsThatAreRoundedByMoreThanTheirUncertaintyAreWarnedOf) {
+    const auto codes_of = [](const Files& files) {
+        std::vector<std::string> codes;
+        for (const gum::Diagnostic& warning : read(files).warnings) {
+            codes.push_back(warning.code);
+        }
+        return codes;
+    };
+    EXPECT_THAT(codes_of(rounded_campaign(2, "\"u_constant_um\": 1.5")), ElementsAre(k_warn_rounded_lengths.code));
+    // What has the rounding in it, or states it beside it, is sound.
+    EXPECT_THAT(codes_of(rounded_campaign(2, "\"u_constant_um\": 2.9")), IsEmpty());
+    EXPECT_THAT(codes_of(rounded_campaign(2, "\"u_constant_um\": 1.5, \"resolution_um\": 10")), IsEmpty());
+    EXPECT_THAT(codes_of(small_campaign()), IsEmpty());
+    // Both passes of each station come back to the same readings.
+    EXPECT_THAT(codes_of(rounded_campaign(2, "\"u_constant_um\": 0.25, \"resolution_um\": 10")),
+                ElementsAre(k_warn_rounded_alike.code));
 }
 
 TEST(RotaryTableJob, LeavesFullTurnsInDegreesAlone) {

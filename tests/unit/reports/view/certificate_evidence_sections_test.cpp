@@ -114,9 +114,10 @@ TEST(EvidenceSections, NameTheGroupWithTheLargestTestValue) {
 TEST(EvidenceSections, HaveAWordForEveryKindInEveryLanguage) {
     for (const char* language : {"en", "de", "es", "zh-Hant"}) {
         const json words = evidence_wording(language);
-        for (const char* kind : {"visit_length", "visit_pose", "dead_path_change", "station_place", "pair_length",
-                                 "drift", "angle_index", "succession", "fixture_scale", "station", "reflector",
-                                 "reflector_at_angles", "reflector_from_visit", "station_scale", "fixture_place"}) {
+        for (const char* kind :
+             {"visit_length", "visit_pose", "dead_path_change", "station_place", "pair_length", "drift", "angle_index",
+              "succession", "fixture_scale", "station", "reflector", "reflector_at_angles", "reflector_from_visit",
+              "station_scale", "fixture_place", "expansion", "senses"}) {
             EXPECT_FALSE(words["value"]["group_kind"].value(kind, "").empty()) << language << ", " << kind;
         }
     }

@@ -57,6 +57,25 @@ TEST(LabelsOfStation, AFactorIsFoundToWhatTheDistancesTell) {
     }
 }
 
+// Reflectors in a plane across the axis, seen from outside of it, move along ellipses: a station at which they are half as flat
+// sees half of each distance. It is not told where the stated distances have a place of their own on the way from there.
+TEST(LabelsOfStation, NoFactorIsToldOfAStationThatItLeadsToItsPlace) {
+    synthetic::CampaignPlan plan;
+    plan.dead_paths = synthetic::DeadPaths::per_station_and_reflector;
+    plan.angles_deg = synthetic::full_turn(12);
+    plan.reflectors = {
+        {0.0469911, 0.0962504, 0.0505884}, {0.0536030, -0.0936034, 0.0954474}, {0.0506561, -0.0134627, -0.0801464}};
+    plan.stations = {{1.190529, 0.884178, -0.369733}, {0.804449, 0.724693, 0.652322},  {1.088408, 0.992358, 0.797092},
+                     {0.747019, 0.768963, 1.220409},  {0.938216, 1.253520, -0.011185}, {0.350455, 0.846219, 0.148201}};
+    plan.offset = Eigen::Vector2d(-0.0694095, 0.1114105);
+    plan.tilt = Eigen::Vector2d(-0.00130935, 0.00174358);
+    const RotaryTableMeasurement sound = simulate(plan).measurement;
+    for (std::size_t j = 0; j < plan.stations.size(); ++j) {
+        const StationFit fit = fit_alone(sound, j);
+        EXPECT_FALSE(labels_of_station(sound, j, fit.upright_misfit())) << j << ", " << fit.upright_misfit();
+    }
+}
+
 // What is left falls up to the end of the range that is looked at: 0.8, which is no factor of anything, was told as one.
 TEST(LabelsOfStation, NoFactorIsToldThatIsTheEndOfWhatIsLookedAt) {
     for (const double factor : {1.2505, 0.7998}) {
