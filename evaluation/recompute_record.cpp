@@ -182,6 +182,9 @@ Evaluation evaluation_of(const EvaluationRecord& record, const std::string& wher
                             kinds);
     } catch (const gum::DiagnosedError& error) {
         const gum::Diagnostic& first = error.diagnostics().front();
+        if (first.code == "GC-STORE-0024") {
+            throw;  // a limit of time says nothing of the record
+        }
         reason = first.where + ": " + first.what;
     }
     throw refusal("GC-RECORD-0024", where + "#/job", "the job cannot be evaluated: " + reason,

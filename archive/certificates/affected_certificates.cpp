@@ -405,8 +405,8 @@ Recalculated recalculated(const std::string& number, const std::string& waits_fo
                 cannot_say(number, waits_for.empty() ? "its job does not take the standard from the register"
                                                      : "it rests on " + waits_for);
         } else {
-            const reports::EvaluationRecord again =
-                evaluation::evaluated_again(record, number, 1, correction.templates);
+            const reports::EvaluationRecord again = evaluation::evaluated_again(
+                record, number, 1, correction.templates, correction.watch ? correction.watch() : gum::Progress());
             const nlohmann::json now = reports::to_json_value(again);
             evaluation::tell_changes(read.value, now, rerun);
             done.result.texts = texts_that_change(record, again);

@@ -70,6 +70,8 @@ struct Correction {
     std::string reason;     ///< of the amendments
     std::filesystem::path templates;
 };
+    /// Asked before each evaluation for its progress, which may end it: such a certificate is one of which nothing can be said.
+    std::function<gum::Progress()> watch = {};
 
 /// On which certificate one rests that is not right itself: "EX-1, which is to be amended first"; "" where on the standard.
 [[nodiscard]] std::string waits_for(const AffectedCertificate& certificate);

@@ -611,10 +611,17 @@ CheckedDraft checked_draft(const fs::path& record_file, const std::vector<fs::pa
                           ? "state \"certificate\": {\"number\": …} in the job of the comparison, and evaluate it again"
                           : "state the certificate data in the job, docs/certificate_data.md"});
     }
-    reports::EvaluationRecord again = checked.record;
-    if (const std::optional<gum::Diagnostic> why =
-            evaluation::recompute_record(again, name, checks.threads, checks.templates, checks.progress)) {
-        throw gum::InputError(*why);
+    const auto evaluate = [&] {
+        reports::EvaluationRecord again = checked.record;
+        if (const std::optional<gum::Diagnostic> why =
+                evaluation::recompute_record(again, name, checks.threads, checks.templates, checks.progress)) {
+            throw gum::InputError(*why);
+        }
+    };
+    if (checks.evaluates_within) {
+        checks.evaluates_within(evaluate);
+    } else {
+        evaluate();
     }
     checked.draft.number = data.number;
     if (!checked.record.certificate) {

@@ -148,6 +148,7 @@ ExitCode replay(const ArchiveOptions& options, const CommonOptions& common) {
     const auto threads = static_cast<unsigned>(common.threads);
     ProgressLine progress(!common.quiet);
     archive::Replays replays;
+    const auto watch = [&common] { return progress_within_walls(common); };
     const auto take = [&](const std::string& number, archive::Replay one) {
         progress.clear();
         print_findings(archive::first_differences(one.differences, number), common);
@@ -155,7 +156,7 @@ ExitCode replay(const ArchiveOptions& options, const CommonOptions& common) {
     };
     if (table) {
         const archive::WorkToShare shared = archive::work_of_replay(records, program_name());
-        archive::ArchiveWorker(archive, *table, threads, templates)
+        archive::ArchiveWorker(archive, *table, threads, templates, watch)
             .finish(shared, wait_for_others, [&](const std::string& text) { progress(text); });
         for (auto& [number, one] : archive::replays_in(*table, shared)) {
             take(number, std::move(one));
@@ -165,7 +166,8 @@ ExitCode replay(const ArchiveOptions& options, const CommonOptions& common) {
         for (std::size_t i = 0; i < records.size(); ++i) {
             const auto& [number, record] = records[i];
             progress(fmt::format("{} of {}: {}", i + 1, records.size(), text::one_line(number)));
-            take(number, archive::replay_record(archive.content(record).value_or(""), number, threads, templates));
+            take(number,
+                 archive::replay_record(archive.content(record).value_or(""), number, threads, templates, watch()));
         }
     }
     if (as_json(options)) {
@@ -200,10 +202,11 @@ ExitCode find_affected(const ArchiveOptions& options, const CommonOptions& commo
             .standard = options.source,
             .corrected = corrected,
             .reason = options.why.empty() ? "The standard " + options.source + " was corrected." : options.why,
-            .templates = templates_folder(options.share)};
+            .templates = templates_folder(options.share),
+            .watch = [&common] { return progress_within_walls(common); }};
         if (table) {
             const archive::WorkToShare shared = archive::work_of(affected, correction, program_name());
-            archive::ArchiveWorker(archive, *table, threads, correction.templates)
+            archive::ArchiveWorker(archive, *table, threads, correction.templates, correction.watch)
                 .finish(shared, wait_for_others, tell);
             archive::take_results(affected, *table, shared);
             work = shared.work.id;
@@ -227,7 +230,7 @@ ExitCode work_for_others(const ArchiveOptions& options, const CommonOptions& com
     const auto store = opened(options, archive::Access::read_only);
     archive::Archive archive(*store);
     archive::ArchiveWorker worker(archive, *table, static_cast<unsigned>(common.threads),
-                                  templates_folder(options.share));
+                                  templates_folder(options.share), [&common] { return progress_within_walls(common); });
     ProgressLine progress(!common.quiet);
     std::size_t done_tasks = 0;
     for (std::optional<archive::SharedWork> work = table->next(program_name()); work || options.wait;

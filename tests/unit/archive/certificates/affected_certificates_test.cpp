@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <fstream>
 #include <map>
 #include <mutex>
@@ -239,6 +240,26 @@ TEST_F(ArchiveOfStandards, AreCalculatedAgainAndRanked) {
     EXPECT_EQ(same[1].recalculated->shift, 0.0);
     EXPECT_EQ(same[1].draft_folder, "");
     EXPECT_EQ(same[0].recalculated->rerun.not_evaluated->code, "GC-ARCHIVE-0062");
+
+    std::vector<AffectedCertificate> ended = find_affected(archive_, {"STD-017", "2026-03-02", ""}, 1);
+    std::atomic<int> asked = 0;
+    recalculate(
+        ended, archive_,
+        {.standard = "STD-017",
+         .corrected = registered,
+         .reason = "r",
+         .templates = k_affected_tree / "templates",
+         .watch = [&asked]() -> gum::Progress {
+             ++asked;
+             throw gum::StorageError(gum::Diagnostic{
+                 .code = "GC-STORE-0024", .where = "--time-limit", .what = "used up", .rule = "", .action = ""});
+         }},
+        2);
+    EXPECT_EQ(asked, 1) << "of each that is evaluated";
+    ASSERT_EQ(ended.size(), 2U);
+    EXPECT_EQ(ended[0].certificate.number, "EX-2026-0042");
+    EXPECT_EQ(ended[0].recalculated->rerun.not_evaluated->what, "used up");
+    EXPECT_NE(ended[1].recalculated->rerun.not_evaluated->what, "used up");
 
     std::string corrected = registered;
     corrected.replace(corrected.find("50.000623"), 9, "50.001623");  // 1 µm: the gauge is out of its limits now
