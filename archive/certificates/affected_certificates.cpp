@@ -432,7 +432,7 @@ void work_out(AffectedCertificate& one, const std::string& original, const Corre
         one.recalculated = std::move(done.result);
         corrected = std::move(done.corrected);
     }
-    if (!needs_amendment(one)) {
+    if (!drafts.write || !needs_amendment(one)) {
         return;
     }
     if (!corrected) {  // another machine has calculated it
@@ -441,10 +441,8 @@ void work_out(AffectedCertificate& one, const std::string& original, const Corre
     }
     const std::vector<outputs::OutputFile> draft = drafted_amendment(one, original, *corrected, correction);
     if (!draft.empty()) {
+        drafts.write(draft);
         one.draft_folder = one.draft_name;
-        if (drafts.write) {
-            drafts.write(draft);
-        }
     }
 }
 
