@@ -289,7 +289,7 @@ private:
             rules_.take(entry);
             if (breach->kind == Breach::Kind::number) {
                 look_at_role(entry);
-            } else {
+            } else if (breach->kind != Breach::Kind::clock) {
                 add("GC-ARCHIVE-0043", where, breach->what, breach->rule);
             }
         }
