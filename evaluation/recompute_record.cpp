@@ -44,7 +44,7 @@ public:
         if (left_out_ > 0) {
             found_.push_back({.code = "GC-RECORD-0022",
                               .where = where_,
-                              .what = std::to_string(left_out_) + " more places",
+                              .what = text::count_of(static_cast<std::int64_t>(left_out_), "more place"),
                               .rule = "the first " + std::to_string(k_most_disagreements) + " are listed",
                               .action = "evaluate the job again"});
         }

@@ -34,6 +34,7 @@
 #include "reports/printable_text.h"
 #include "reports/record/make/certificate/amended_record.h"
 #include "signing/verify.h"
+#include "text/lists.h"
 #include "text/visible_text.h"
 
 namespace gumcert::archive {
@@ -541,7 +542,9 @@ private:
             }
         }
         if (languages.empty() || languages.size() > 2) {
-            refuse_disagreement(file, "is in " + std::to_string(languages.size()) + " languages, not in one or two");
+            refuse_disagreement(file, "is in " +
+                                          text::count_of(static_cast<std::int64_t>(languages.size()), "language") +
+                                          ", not in one or two");
         }
         return assets;
     }

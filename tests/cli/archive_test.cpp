@@ -107,7 +107,7 @@ TEST_F(ArchiveOfALaboratory, LeadsFromTheRecordToTheIssuedCertificate) {
     EXPECT_TRUE(tells(archive({"show", "EX-2026-0042"}), "authorised  Head of laboratory"));
     const Ended verified = archive({"verify"});
     EXPECT_EQ(verified.code, 0) << verified.err;
-    EXPECT_TRUE(tells(verified, "sound; 5 entries, 3 contents, 1 certificates"));
+    EXPECT_TRUE(tells(verified, "sound; 5 entries, 3 contents, 1 certificate,"));
     EXPECT_EQ(verified_elsewhere({store()}).code, 0);
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -29,6 +30,7 @@
 #include "evaluation/read_file.h"
 #include "outputs/output_files.h"
 #include "system/whole_folders.h"
+#include "text/lists.h"
 #include "text/visible_text.h"
 
 namespace gumcert::cli {
@@ -146,9 +148,9 @@ ExitCode replay(const ArchiveOptions& options, const CommonOptions& common) {
     const std::vector<std::pair<std::string, std::string>> records = archive::records_to_replay(archive, options.named);
     const fs::path templates = templates_folder(options.share);
     const auto threads = static_cast<unsigned>(common.threads);
+    const auto watch = [&common] { return progress_within_walls(common); };
     ProgressLine progress(!common.quiet);
     archive::Replays replays;
-    const auto watch = [&common] { return progress_within_walls(common); };
     const auto take = [&](const std::string& number, archive::Replay one) {
         progress.clear();
         print_findings(archive::first_differences(one.differences, number), common);
@@ -232,19 +234,19 @@ ExitCode work_for_others(const ArchiveOptions& options, const CommonOptions& com
     archive::ArchiveWorker worker(archive, *table, static_cast<unsigned>(common.threads),
                                   templates_folder(options.share), [&common] { return progress_within_walls(common); });
     ProgressLine progress(!common.quiet);
-    std::size_t done_tasks = 0;
+    std::int64_t done_tasks = 0;
     for (std::optional<archive::SharedWork> work = table->next(program_name()); work || options.wait;
          work = table->next(program_name())) {
         const std::size_t some = work ? worker.do_some(*work) : 0;
-        done_tasks += some;
-        progress(fmt::format("{} tasks done", done_tasks));
+        done_tasks += static_cast<std::int64_t>(some);
+        progress(text::count_of(done_tasks, "task") + " done");
         if (some == 0) {
             wait_for_others();
         }
     }
     progress.clear();
     if (!common.quiet) {
-        print_to_stdout("{} tasks done\n", done_tasks);
+        print_to_stdout("{} done\n", text::count_of(done_tasks, "task"));
     }
     return done;
 }
