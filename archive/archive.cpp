@@ -128,16 +128,16 @@ bool is_confirmed(const Request& request) {
 
 /// A machine whose clock is ahead would close the archive until then, and over New Year give numbers of another year. Nobody can
 /// tell a pause from a wrong clock but a person with a calendar.
-void require_no_jump(const std::string& last, const Request& request) {
+/// \param kind  of the entry
+void require_no_jump(const std::string& last, const Request& request, const std::string& kind) {
     constexpr std::int64_t k_pause = 7;  // [d]
     const std::int64_t days = day_number(request.at) - day_number(last);
-    const bool is_of_another_year = request.at.substr(0, 4) != last.substr(0, 4);
+    const bool is_of_another_year = kind == "numbered" && request.at.substr(0, 4) != last.substr(0, 4);
     if ((days > k_pause || (days > 1 && is_of_another_year)) && !is_confirmed(request)) {
         refuse_request("GC-ARCHIVE-0065", "the clock of this machine",
                        "says " + request.at + ", " + text::count_of(days, "day") + " after the last entry, " + last,
-                       "an entry more than a week after the last one, or more than a day after one of another year, "
-                       "states the day by "
-                       "hand, because no later entry may be earlier",
+                       "an entry more than a week after the last one, or a number more than a day after an entry of "
+                       "another year, states the day by hand, because no later entry may be earlier",
                        "look at a calendar: set the clock right, or add --today " + request.at.substr(0, 10));
     }
 }
@@ -345,7 +345,7 @@ Written Archive::write(const LogEntry& wanted, const Request& request, const Ask
         if (!known) {
             json begun = json::object();
             if (const std::optional<LogEntry> last = store_.last_entry()) {
-                require_no_jump(last->at, request);
+                require_no_jump(last->at, request, wanted.kind);
                 if (is_after_wrong_clock(last->at, request)) {
                     begun[k_clock] = request.at;
                 }
