@@ -148,7 +148,7 @@ ExitCode replay(const ArchiveOptions& options, const CommonOptions& common) {
     const std::vector<std::pair<std::string, std::string>> records = archive::records_to_replay(archive, options.named);
     const fs::path templates = templates_folder(options.share);
     const auto threads = static_cast<unsigned>(common.threads);
-    const auto watch = [&common] { return progress_within_walls(common); };
+    const auto watch = [&common] { return progress_within_walls(common, "a record"); };
     ProgressLine progress(!common.quiet);
     archive::Replays replays;
     const auto take = [&](const std::string& number, archive::Replay one) {
@@ -205,7 +205,7 @@ ExitCode find_affected(const ArchiveOptions& options, const CommonOptions& commo
             .corrected = corrected,
             .reason = options.why.empty() ? "The standard " + options.source + " was corrected." : options.why,
             .templates = templates_folder(options.share),
-            .watch = [&common] { return progress_within_walls(common); }};
+            .watch = [&common] { return progress_within_walls(common, "a record"); }};
         if (table) {
             const archive::WorkToShare shared = archive::work_of(affected, correction, program_name());
             archive::ArchiveWorker(archive, *table, threads, correction.templates, correction.watch)
@@ -232,7 +232,8 @@ ExitCode work_for_others(const ArchiveOptions& options, const CommonOptions& com
     const auto store = opened(options, archive::Access::read_only);
     archive::Archive archive(*store);
     archive::ArchiveWorker worker(archive, *table, static_cast<unsigned>(common.threads),
-                                  templates_folder(options.share), [&common] { return progress_within_walls(common); });
+                                  templates_folder(options.share),
+                                  [&common] { return progress_within_walls(common, "a record"); });
     ProgressLine progress(!common.quiet);
     std::int64_t done_tasks = 0;
     for (std::optional<archive::SharedWork> work = table->next(program_name()); work || options.wait;
