@@ -2,8 +2,12 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdlib>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <string_view>
 #include <utility>
 
 #include "archive/names.h"
@@ -11,6 +15,7 @@
 #include "encoding/sha2.h"
 #include "gum/quantity/diagnostic.h"
 #include "json/canonical_json.h"
+#include "text/lists.h"
 #include "text/visible_text.h"
 
 namespace gumcert::archive {
@@ -50,10 +55,13 @@ constexpr std::size_t k_hash_size = 32;
                            "see gumcert archive show of the original");
         case Breach::Kind::order:
             if (entry.at < last_at) {
-                refuse_request("GC-ARCHIVE-0032", where, "the clock says " + entry.at + ", the last entry " + last_at,
-                               breach.rule, "set the clock of this machine right");
+                refuse_request(
+                    "GC-ARCHIVE-0032", where, "the clock says " + entry.at + ", the last entry " + last_at, breach.rule,
+                    "set the clock of this machine right; where it is right, and was ahead before, add --today " +
+                        entry.at.substr(0, 10) + ": the entry gets the time of the last one");
             }
             [[fallthrough]];
+        case Breach::Kind::clock:
         case Breach::Kind::form:
         case Breach::Kind::settings:
             refuse_request("GC-ARCHIVE-0020", where, breach.what, breach.rule, "correct the request");
@@ -113,19 +121,24 @@ std::int64_t second_number(std::string_view at) {
     return (hours * k_minutes_of_hour + part_of_time(at, 14, 2)) * k_seconds_of_minute + part_of_time(at, 17, 2);
 }
 
-/// A machine whose clock is years ahead would close the archive until then. Nobody can tell a long pause from a wrong
-/// clock but a person with a calendar.
-void require_no_jump(const std::string& last, const Request& request) {
-    constexpr std::int64_t k_year = 366;
-    const std::string day = request.at.substr(0, 10);
+/// Whether a person has looked at a calendar. The day before and the day after are days of other places.
+bool is_confirmed(const Request& request) {
+    return !request.confirmed_day.empty() && std::abs(day_number(request.at) - day_number(request.confirmed_day)) <= 1;
+}
+
+/// A machine whose clock is ahead would close the archive until then, and over New Year give numbers of another year. Nobody can
+/// tell a pause from a wrong clock but a person with a calendar.
+/// \param kind  of the entry
+void require_no_jump(const std::string& last, const Request& request, const std::string& kind) {
+    constexpr std::int64_t k_pause = 7;  // [d]
     const std::int64_t days = day_number(request.at) - day_number(last);
-    if (days > k_year && request.confirmed_day != day) {
-        refuse_request(
-            "GC-ARCHIVE-0065", "the clock of this machine",
-            "says " + request.at + ", " + std::to_string(days) + " days after the last entry, " + last,
-            "an entry more than a year after the last one states the day by hand, because no later entry may "
-            "be earlier",
-            "look at a calendar: set the clock right, or add --today " + day);
+    const bool is_of_another_year = kind == "numbered" && request.at.substr(0, 4) != last.substr(0, 4);
+    if ((days > k_pause || (days > 1 && is_of_another_year)) && !is_confirmed(request)) {
+        refuse_request("GC-ARCHIVE-0065", "the clock of this machine",
+                       "says " + request.at + ", " + text::count_of(days, "day") + " after the last entry, " + last,
+                       "an entry more than a week after the last one, or a number more than a day after an entry of "
+                       "another year, states the day by hand, because no later entry may be earlier",
+                       "look at a calendar: set the clock right, or add --today " + request.at.substr(0, 10));
     }
 }
 
@@ -180,6 +193,18 @@ json changed_state(const std::string& before, const std::string& after, const st
 std::string not_before(const std::string& last, std::string at) {
     constexpr std::int64_t k_small = 60;  // [s]
     return at < last && second_number(last) - second_number(at) < k_small ? last : std::move(at);
+}
+
+/// Whether the last entry is of a clock that was ahead, as a person says who has looked at a calendar.
+bool is_after_wrong_clock(const std::string& last, const Request& request) {
+    return not_before(last, request.at) < last && is_confirmed(request);
+}
+
+/// The time of an entry: its own, or that of the last one, where its body says what the clock said.
+std::string time_after(const LogEntry& last, const LogEntry& entry) {
+    const std::string at = not_before(last.at, entry.at);
+    const std::optional<json> body = at < last.at ? body_of(entry) : std::nullopt;
+    return body && body->value(k_clock, json()) == entry.at ? last.at : at;
 }
 
 void require_numbering(const Settings& settings) {
@@ -250,9 +275,19 @@ LogRules Archive::rules_for(const std::vector<std::string>& certificates, const 
             return !found;
         });
     }
+    std::set<std::string> known(certificates.begin(), certificates.end());
     for (const std::string& certificate : certificates) {
+        std::string later;  // what took its place may be withdrawn
         for (LogEntry& entry : store_.entries_of(certificate)) {
+            if (entry.kind == "amended-by" || entry.kind == "superseded") {
+                later = text_in(body_of(entry).value_or(json::object()), "new", "by");
+            }
             needed.push_back(std::move(entry));
+        }
+        if (!later.empty() && known.insert(later).second) {
+            for (LogEntry& entry : store_.entries_of(later)) {
+                needed.push_back(std::move(entry));
+            }
         }
     }
     std::sort(needed.begin(), needed.end(), [](const LogEntry& a, const LogEntry& b) { return a.seq < b.seq; });
@@ -271,11 +306,12 @@ LogEntry Archive::append(LogRules& rules, LogEntry entry) {
                        "begin an archive with gumcert archive init");
     }
     entry.seq = last->seq + 1;
-    entry.at = not_before(last->at, entry.at);
+    entry.at = time_after(*last, entry);
     entry.prev = last->hash;
     if (entry.at < last->at) {
         refuse_breach({Breach::Kind::order, "", "no entry is earlier than the one before"}, entry, last->at);
     }
+    rules.go_on_after(last->at);
     require_distinct(entry, rules);
     if (const std::optional<Breach> breach = rules.accept(entry)) {
         refuse_breach(*breach, entry, last->at);
@@ -307,10 +343,13 @@ Written Archive::write(const LogEntry& wanted, const Request& request, const Ask
         std::optional<LogEntry> known =
             wanted.request_key.empty() ? std::nullopt : store_.entry_of_request(wanted.request_key);
         if (!known) {
-            if (const std::optional<LogEntry> last = store_.last_entry()) {
-                require_no_jump(last->at, request);
-            }
             json begun = json::object();
+            if (const std::optional<LogEntry> last = store_.last_entry()) {
+                require_no_jump(last->at, request, wanted.kind);
+                if (is_after_wrong_clock(last->at, request)) {
+                    begun[k_clock] = request.at;
+                }
+            }
             if (!wanted.request_key.empty()) {
                 begun[k_request] = digest;
             }
@@ -461,9 +500,9 @@ Written Archive::take_amendment_number(const std::string& original, const Reques
         require_known(original, store_.entries_of(original));
         const std::string series = series_of_amendments(original);
         LogRules rules = rules_for({original}, "");
-        if (rules.life(original)->state != "issued") {
+        if (!rules.may_be_amended(original)) {
             refuse_breach({Breach::Kind::amendment, "certificate " + original + " is " + rules.life(original)->state,
-                           "an amendment amends or replaces a certificate that is issued and holds"},
+                           k_amendable_rule},
                           wanted, "");
         }
         // All before the next one were taken, or chosen by hand.
@@ -613,6 +652,9 @@ Written Archive::advance(const std::string& certificate, const std::string& kind
             of_original.record = original.record;
             json change = changed_state(original.state, of_original.kind, request.why);
             change["new"]["by"] = certificate;
+            if (body.contains(k_clock)) {
+                change[k_clock] = body[k_clock];
+            }
             of_original.body = gumcert::json::canonical_json(change);
             (void)append(rules, of_original);
         }
@@ -754,7 +796,7 @@ Head Archive::head() {
 Head Archive::head_since(const Head& earlier) {
     std::optional<Head> head = walked().head_since(earlier);
     if (!head) {
-        refuse_request("GC-ARCHIVE-0036", "head of " + std::to_string(earlier.size) + " entries, " + earlier.at,
+        refuse_request("GC-ARCHIVE-0036", "head of " + text::count_of(earlier.size, "entry") + ", " + earlier.at,
                        "the archive does not begin with these entries",
                        "an archive begins with what its earlier heads say",
                        "the log was cut off, rewritten, or belongs to another archive: compare with a backup");

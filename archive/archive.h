@@ -22,8 +22,9 @@ struct Request {
     std::string at;           ///< UTC, "2026-11-24T18:52:52Z"
     std::string request_key;  ///< the same key gives the same entry: a client may ask again after a crash; "" without
     std::string why;
-    /// "2026-11-24": the person has looked at a calendar. An entry more than a year after the last one needs it, because a
-    /// clock that is wrong once in the future stops the archive: no later entry may be earlier.
+    /// "2026-11-24": the person has looked at a calendar, within a day of `at`. An entry more than a week after the last one, or a
+    /// number more than a day after an entry of another year, needs it, because no later entry may be earlier; and one that is earlier
+    /// all the same, after a clock that was ahead: it gets the time of the last entry, and says what its clock said.
     std::string confirmed_day = {};
 };
 

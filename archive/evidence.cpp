@@ -15,6 +15,7 @@
 #include "encoding/sha2.h"
 #include "json/canonical_json.h"
 #include "json/strict_parser.h"
+#include "text/lists.h"
 #include "text/visible_text.h"
 
 namespace gumcert::archive {
@@ -187,7 +188,7 @@ public:
             look_at_states(*evidence_.states);
         }
         if (evidence_.head.extends && !proves_its_extension(evidence_.head)) {
-            add("GC-ARCHIVE-0051", "head of " + std::to_string(evidence_.head.size) + " entries",
+            add("GC-ARCHIVE-0051", "head of " + text::count_of(evidence_.head.size, "entry"),
                 "its proof does not lead to its root",
                 "a later head proves that the log begins with what an earlier one says");
         }
@@ -229,7 +230,7 @@ private:
 
     void compare_with(const Head& head, const std::vector<Head>& known) {
         const Head& own = evidence_.head;
-        const std::string where = "head of " + std::to_string(head.size) + " entries, " + head.at;
+        const std::string where = "head of " + text::count_of(head.size, "entry") + ", " + head.at;
         if (head.archive != own.archive ||
             (head.size == own.size && (head.root != own.root || head.chain != own.chain || head.at != own.at)) ||
             (head.size < own.size ? head.at > own.at : head.at < own.at)) {
@@ -289,7 +290,7 @@ private:
             rules_.take(entry);
             if (breach->kind == Breach::Kind::number) {
                 look_at_role(entry);
-            } else {
+            } else if (breach->kind != Breach::Kind::clock) {
                 add("GC-ARCHIVE-0043", where, breach->what, breach->rule);
             }
         }
@@ -455,7 +456,7 @@ Evidence evidence_of(Store& store, const std::string& certificate, const std::op
         if (!head) {
             throw gum::InputError(gum::Diagnostic{
                 .code = "GC-ARCHIVE-0036",
-                .where = "head of " + std::to_string(since->size) + " entries, " + since->at,
+                .where = "head of " + text::count_of(since->size, "entry") + ", " + since->at,
                 .what = "the archive does not begin with these entries",
                 .rule = "an archive begins with what its earlier heads say",
                 .action = "the log was cut off, rewritten, or belongs to another archive: compare with a backup"});

@@ -25,8 +25,8 @@ const std::map<std::string, std::set<std::string>, std::less<>>& ways() {
         {"reviewed", {"drafted", "authorised", "withdrawn"}},
         {"authorised", {"drafted", "issued", "withdrawn"}},
         {"issued", {"amended-by", "superseded", "withdrawn"}},
-        {"amended-by", {}},
-        {"superseded", {}},
+        {"amended-by", {"amended-by", "superseded", "withdrawn"}},  // where its amendment was withdrawn
+        {"superseded", {"amended-by", "superseded", "withdrawn"}},
         {"withdrawn", {}}};
     return k_ways;
 }
@@ -47,6 +47,10 @@ const json& member(const json& object, const char* key) {
     static const json k_none;
     const auto found = object.is_object() ? object.find(key) : object.end();
     return found != object.end() ? *found : k_none;
+}
+
+bool has_ended(const CertificateLife& life) {
+    return life.state == "amended-by" || life.state == "superseded";
 }
 
 std::string worded_state(const std::string& state) {
@@ -101,6 +105,12 @@ const CertificateLife* LogRules::life(const std::string& certificate) const {
     return found == lives_.end() ? nullptr : &found->second;
 }
 
+bool LogRules::may_be_amended(const std::string& certificate) const {
+    const CertificateLife* const own = life(certificate);
+    const CertificateLife* const later = own != nullptr && has_ended(*own) ? life(own->later) : nullptr;
+    return own != nullptr && (own->state == "issued" || (later != nullptr && later->state == "withdrawn"));
+}
+
 long long LogRules::last_ordinal(const std::string& series) const {
     const auto found = ordinals_.find(series);
     return found == ordinals_.end() ? 0 : found->second;
@@ -125,11 +135,11 @@ bool LogRules::is_next_number(const LogEntry& entry, const json& body) const {
     const auto number = ordinal.get<long long>();
     const std::string amends = text_of(member(body, "new"), "amends");
     if (!amends.empty()) {
-        const CertificateLife* const original = life(amends);
-        return original != nullptr && original->state == "issued" && series == series_of_amendments(amends) &&
-               number == next_amendment(amends) && entry.certificate == series + std::to_string(number);
+        return may_be_amended(amends) && series == series_of_amendments(amends) && number == next_amendment(amends) &&
+               entry.certificate == series + std::to_string(number);
     }
-    return !settings_.numbering.empty() && series == series_of(settings_.numbering, entry.at) &&
+    const std::string clock = text_of(body, k_clock);
+    return !settings_.numbering.empty() && series == series_of(settings_.numbering, clock.empty() ? entry.at : clock) &&
            number == last_ordinal(series) + 1 && number_in(series, number) == entry.certificate;
 }
 
@@ -152,6 +162,10 @@ std::optional<Breach> LogRules::accept(const LogEntry& entry) {
 void LogRules::take(const LogEntry& entry) {
     apply(entry, body_of(entry).value_or(json::object()));
     due_kind_.clear();  // it was written together with what was due
+}
+
+void LogRules::go_on_after(const std::string& last_at) {
+    last_at_ = std::max(last_at_, last_at);
 }
 
 std::optional<Breach> LogRules::breach_of(const LogEntry& entry, const json& body) const {
@@ -181,6 +195,11 @@ std::optional<Breach> LogRules::breach_of(const LogEntry& entry, const json& bod
         return Breach{Breach::Kind::order, "the time " + entry.at + " is before " + last_at_,
                       "no entry is earlier than the one before"};
     }
+    const json& clock = member(body, k_clock);
+    if (!clock.is_null() && (!is_utc_time(text_of(body, k_clock)) || text_of(body, k_clock) >= entry.at)) {
+        return form("its clock is no time before its own",
+                    "an entry after a clock that was ahead states the time of its own clock");
+    }
     // Both entries or none: between them an original would hold beside its replacement.
     if (!due_kind_.empty() && (entry.kind != due_kind_ || entry.certificate != due_certificate_)) {
         return Breach{Breach::Kind::amendment, "\"" + entry.kind + "\" " + entry.certificate + " stands here",
@@ -190,7 +209,14 @@ std::optional<Breach> LogRules::breach_of(const LogEntry& entry, const json& bod
             is_of_life(entry.kind) ? breach_of_life(entry, body) : breach_of_archive(entry, body)) {
         return breach;
     }
-    return breach_of_person(entry);
+    if (std::optional<Breach> breach = breach_of_person(entry)) {
+        return breach;
+    }
+    if (!clock.is_null() && entry.at != last_at_) {
+        return Breach{Breach::Kind::clock, "the clock said " + text_of(body, k_clock) + ", and the time is another one",
+                      "an entry after a clock that was ahead has the time of the entry before"};
+    }
+    return std::nullopt;
 }
 
 std::optional<Breach> LogRules::breach_of_archive(const LogEntry& entry, const json& body) const {
@@ -231,7 +257,7 @@ std::optional<Breach> LogRules::breach_of_life(const LogEntry& entry, const json
     static const CertificateLife k_none;
     const CertificateLife* const found = life(entry.certificate);
     const CertificateLife& life = found != nullptr ? *found : k_none;
-    if (!ways().at(life.state).contains(entry.kind)) {
+    if (!ways().at(life.state).contains(entry.kind) || (has_ended(life) && !may_be_amended(entry.certificate))) {
         return breach(
             Breach::Kind::life,
             "certificate " + entry.certificate + " is " + worded_state(life.state) + ", and not to be " + entry.kind,
@@ -261,11 +287,11 @@ std::optional<Breach> LogRules::breach_of_life(const LogEntry& entry, const json
         }
         if (!life.amends.empty()) {
             const CertificateLife* const original = this->life(life.amends);
-            if (original == nullptr || original->state != "issued") {
+            if (!may_be_amended(life.amends)) {
                 return breach(
                     Breach::Kind::amendment,
                     "certificate " + life.amends + " is " + worded_state(original == nullptr ? "" : original->state),
-                    "an amendment amends or replaces a certificate that is issued and holds");
+                    k_amendable_rule);
             }
         }
     }
@@ -304,11 +330,11 @@ std::optional<Breach> LogRules::breach_of_draft(const LogEntry& entry, const jso
     if (!amends.is_null()) {
         const std::string kind = text_of(amends, "kind");
         const CertificateLife* const original = this->life(original_number);
-        if (original == nullptr || original->state != "issued" || original_number == entry.certificate) {
+        if (!may_be_amended(original_number) || original_number == entry.certificate) {
             return breach(
                 Breach::Kind::amendment,
                 "certificate " + original_number + " is " + worded_state(original == nullptr ? "" : original->state),
-                "an amendment amends or replaces a certificate that is issued and holds");
+                k_amendable_rule);
         }
         if ((kind != "amended" && kind != "replaced") || text_of(body, "why").empty() ||
             !member(amends, "changes").is_array() || member(amends, "changes").empty()) {

@@ -31,7 +31,8 @@ struct CertificateLife {
 
 /// A rule of the log that an entry breaks.
 struct Breach {
-    enum class Kind { form, order, life, four_eyes, role, number, amendment, settings };
+    /// Of `number` and `clock` a part of the log says nothing.
+    enum class Kind { form, order, clock, life, four_eyes, role, number, amendment, settings };
     Kind kind = Kind::form;
     std::string what;  ///< what the entry has, in words
     std::string rule;
@@ -46,11 +47,15 @@ public:
     [[nodiscard]] std::optional<Breach> accept(const LogEntry& entry);
     /// Takes an entry that was accepted before: of a part of the log that is enough for the next one.
     void take(const LogEntry& entry);
+    /// Where entries that were taken are a part of the log: the time of its last entry.
+    void go_on_after(const std::string& last_at);
 
     [[nodiscard]] const Settings& settings() const { return settings_; }
     /// \return none where no entry named it
     [[nodiscard]] const CertificateLife* life(const std::string& certificate) const;
     [[nodiscard]] const std::map<std::string, CertificateLife>& lives() const { return lives_; }
+    /// Whether an amendment may take its place: it is issued and holds, or what took its place was withdrawn.
+    [[nodiscard]] bool may_be_amended(const std::string& certificate) const;
     /// The highest ordinal of a series that is taken; 0 where none is.
     [[nodiscard]] long long last_ordinal(const std::string& series) const;
     /// The next ordinal of the amendments of a certificate: of all that are known, the first one behind those taken that
@@ -76,6 +81,13 @@ private:
     std::optional<Breach> breach_of_person(const LogEntry& entry) const;
     void apply(const LogEntry& entry, const nlohmann::json& body);
 };
+
+/// Member of a body: what the clock said, where that was earlier than the entry before, which a clock that was ahead has
+/// written. The entry has the time of that one. (docs/adr/0087-a-clock-that-was-ahead.md)
+inline constexpr const char* k_clock = "clock";
+/// The rule for originals of amendments.
+inline constexpr const char* k_amendable_rule =
+    "an amendment amends or replaces a certificate that is issued and holds, or whose amendment was withdrawn";
 
 /// Series of the amendments of a certificate: "EX-2026-0001/A", before the ordinal.
 [[nodiscard]] std::string series_of_amendments(const std::string& original);

@@ -95,8 +95,12 @@ std::string history_text(Archive& archive, const std::string& number) {
     }
     for (const LogEntry& entry : entries) {
         const json body = body_of(entry).value_or(json::object());
-        text += fmt::format("  {:>6}  {}  {:<10}  {}", entry.seq, text::one_line(entry.at), text::one_line(entry.kind),
-                            text::one_line(entry.actor));
+        const auto clock = body.find(k_clock);
+        text += fmt::format("  {:>6}  {}{}  {:<10}  {}", entry.seq, text::one_line(entry.at),
+                            clock != body.end() && clock->is_string()
+                                ? " (the clock said " + text::one_line(clock->get_ref<const std::string&>()) + ")"
+                                : "",
+                            text::one_line(entry.kind), text::one_line(entry.actor));
         const auto why = body.find("why");
         text += why != body.end() && why->is_string() && !why->get_ref<const std::string&>().empty()
                     ? ": " + text::one_line(why->get_ref<const std::string&>()) + "\n"

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "encoding/sha2.h"
+#include "text/lists.h"
 
 namespace gumcert::archive {
 
@@ -62,7 +63,7 @@ std::vector<PrintedHead> printed_heads_in(std::string_view document) {
 }
 
 std::string fault_of(const PrintedHead& head, bool is_of_log, std::int64_t drafted, std::int64_t archived) {
-    const std::string which = "prints a head of " + std::to_string(head.size) + " entries";
+    const std::string which = "prints a head of " + text::count_of(head.size, "entry");
     return !is_of_log || head.size >= archived ? which + ", which the log did not have before the document"
            : drafted > head.size               ? which + ", which does not contain the draft of its record"
                                                : "";

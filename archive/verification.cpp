@@ -1,5 +1,6 @@
 #include "archive/verification.h"
 
+#include <cstdint>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -9,6 +10,7 @@
 #include "archive/log_rules.h"
 #include "archive/printed_head.h"
 #include "encoding/sha2.h"
+#include "text/lists.h"
 
 namespace gumcert::archive {
 
@@ -62,7 +64,7 @@ public:
         if (left_out_ > 0) {
             found_.findings.push_back({.code = "GC-ARCHIVE-0043",
                                        .where = store_.name(),
-                                       .what = std::to_string(left_out_) + " more findings",
+                                       .what = text::count_of(static_cast<std::int64_t>(left_out_), "more finding"),
                                        .rule = "the first " + std::to_string(k_most_findings) + " are listed",
                                        .action = "restore the newest backup that can be verified"});
         }
@@ -136,7 +138,7 @@ private:
         log_.add(entry);
         chains_.emplace_back(entry.hash, entry.at);
         if (progress_ && log_.tree().size() % k_between_reports == 0) {
-            progress_(std::to_string(log_.tree().size()) + " entries");
+            progress_(text::count_of(static_cast<std::int64_t>(log_.tree().size()), "entry"));
         }
     }
 
@@ -179,7 +181,7 @@ private:
         }
         kept_.insert(content.sha256);
         if (progress_ && kept_.size() % k_between_reports == 0) {
-            progress_(std::to_string(kept_.size()) + " contents");
+            progress_(text::count_of(static_cast<std::int64_t>(kept_.size()), "content"));
         }
     }
 
@@ -196,14 +198,15 @@ private:
     }
 
     void compare_with(const Head& head) {
-        const std::string where = "head of " + std::to_string(head.size) + " entries, " + head.at;
+        const std::string where = "head of " + text::count_of(head.size, "entry") + ", " + head.at;
         const char* const rule = "an archive begins with what its earlier heads say";
         const char* const action =
             "the log was cut off, rewritten, or belongs to another archive: compare with a backup";
         if (log_.tree().size() == 0 || head.archive != log_.without_root().archive) {
             add("GC-ARCHIVE-0045", where, "is one of another archive", rule, action);
         } else if (head.size < 1 || static_cast<std::size_t>(head.size) > log_.tree().size()) {
-            add("GC-ARCHIVE-0045", where, "the archive has " + std::to_string(log_.tree().size()) + " entries", rule,
+            add("GC-ARCHIVE-0045", where,
+                "the archive has " + text::count_of(static_cast<std::int64_t>(log_.tree().size()), "entry"), rule,
                 action);
         } else if (const auto& [chain, at] = chains_[static_cast<std::size_t>(head.size) - 1];
                    log_.tree().root(static_cast<std::size_t>(head.size)) != head.root || chain != head.chain ||

@@ -29,6 +29,8 @@ constexpr std::uint64_t k_wall_step = 10'000'000;                 // [byte] of a
 constexpr std::uint64_t k_wall_memory = std::uint64_t{1} << 30U;  // [byte], of the largest file
 constexpr std::uint64_t k_wall_memory_of_file = 262'144;          // [byte], what is kept of each until all are read
 constexpr std::uint64_t k_wall_time = 30;                         // [s], of all files together
+constexpr std::uint64_t k_evaluation_memory = std::uint64_t{4} << 30U;  // [byte]
+constexpr std::uint64_t k_evaluation_time = 600;                        // [s], of one record
 
 /// "100 000"
 std::string grouped(std::uint64_t number) {
@@ -53,6 +55,10 @@ Walls walls_of(const std::vector<std::filesystem::path>& files) {
     }
     return {.memory = most * k_wall_memory + files.size() * k_wall_memory_of_file,
             .time = std::max<std::uint64_t>(steps, 1) * k_wall_time};
+}
+
+Walls walls_of_evaluation() {
+    return {.memory = k_evaluation_memory, .time = k_evaluation_time};
 }
 
 std::string Limit::value() const {
@@ -86,6 +92,9 @@ std::vector<Limit> limits() {
         "verify, import, check dcc, archive verify FILE, archive add and amend but for the evaluation, and audit of "
         "files of "
         "others, for every 10 MB of a file";
+    constexpr std::string_view k_evaluation =
+        "the evaluation of the job in a record: archive add and amend, check and rerun; the time also archive replay, "
+        "affected and worker";
     return {
         {k_job, "a file", jobs::k_file_limit, k_byte},
         {k_job, "logo or symbol", jobs::k_largest_picture, k_byte},
@@ -126,6 +135,8 @@ std::vector<Limit> limits() {
         {k_signed, "XML: tags and attributes", signing::k_most_parts},
         {k_foreign, "memory, unless --memory-limit says otherwise", k_wall_memory, k_byte},
         {k_foreign, "time, unless --time-limit says otherwise", k_wall_time, "s"},
+        {k_evaluation, "memory, unless --memory-limit says otherwise", k_evaluation_memory, k_byte},
+        {k_evaluation, "time, unless --time-limit says otherwise", k_evaluation_time, "s"},
         {k_page, "memory", page.pdf_memory_limit, k_byte},
         {k_page, "time for a document", static_cast<std::uint64_t>(page.pdf_time_limit.count()), "s"},
     };

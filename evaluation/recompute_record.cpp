@@ -44,7 +44,7 @@ public:
         if (left_out_ > 0) {
             found_.push_back({.code = "GC-RECORD-0022",
                               .where = where_,
-                              .what = std::to_string(left_out_) + " more places",
+                              .what = text::count_of(static_cast<std::int64_t>(left_out_), "more place"),
                               .rule = "the first " + std::to_string(k_most_disagreements) + " are listed",
                               .action = "evaluate the job again"});
         }
@@ -182,6 +182,9 @@ Evaluation evaluation_of(const EvaluationRecord& record, const std::string& wher
                             kinds);
     } catch (const gum::DiagnosedError& error) {
         const gum::Diagnostic& first = error.diagnostics().front();
+        if (first.code == "GC-STORE-0024") {
+            throw;  // a limit of time says nothing of the record
+        }
         reason = first.where + ": " + first.what;
     }
     throw refusal("GC-RECORD-0024", where + "#/job", "the job cannot be evaluated: " + reason,

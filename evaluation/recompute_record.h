@@ -43,7 +43,8 @@ void tell_disagreements(const reports::EvaluationRecord& stated, const reports::
                                                             const std::string& where);
 
 /// What the job in a record gives: its files as the record holds them, evaluated with this program.
-/// \throws gum::InputError  GC-RECORD-0023 if a file is not that of its digest, -0024 if the job cannot be evaluated
+/// \throws gum::InputError    GC-RECORD-0023 if a file is not that of its digest, -0024 if the job cannot be evaluated
+/// \throws gum::StorageError  GC-STORE-0024 where the progress ends it, because its time is used up
 [[nodiscard]] Evaluation evaluation_of(const reports::EvaluationRecord& record, const std::string& where,
                                        unsigned threads, const std::filesystem::path& templates,
                                        const gum::Progress& progress = {},

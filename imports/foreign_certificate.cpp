@@ -18,6 +18,7 @@
 #include "reports/dcc/dcc_element.h"
 #include "reports/printable_text.h"
 #include "signing/verify.h"
+#include "text/plus_sign.h"
 
 namespace gumcert::imports {
 
@@ -96,10 +97,10 @@ void add_signatures(std::string_view bytes, const std::string& file, const Certi
 }
 
 std::optional<double> number_of(const std::string& text) {
-    const char* const begin = text.data() + (text.starts_with('+') ? 1 : 0);
+    const std::string_view digits = text::without_plus(text);
     double value = 0.0;
-    const auto [end, failure] = std::from_chars(begin, text.data() + text.size(), value);
-    return failure == std::errc() && end == text.data() + text.size() ? std::optional(value) : std::nullopt;
+    const auto [end, failure] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    return failure == std::errc() && end == digits.data() + digits.size() ? std::optional(value) : std::nullopt;
 }
 
 /// A value or an interval that cannot be: no finite number, ends in the wrong order, a value outside of its interval, a

@@ -17,6 +17,7 @@
 #include "reports/dcc/dcc_reader.h"
 #include "reports/printable_text.h"
 #include "text/lists.h"
+#include "text/plus_sign.h"
 #include "text/utf8.h"
 
 namespace gumcert::imports {
@@ -30,7 +31,7 @@ using reports::ImportedQuantity;
 /// A number of a certificate as JSON wants it, with the digits that stand there: "+.50" → "0.50", "5." → "5". Nothing
 /// for NaN or another text that is no finite number.
 std::optional<std::string> json_number(const std::string& text) {
-    std::string number = text.starts_with('+') ? text.substr(1) : text;
+    std::string number(text::without_plus(text));
     const bool negative = number.starts_with('-');
     std::string rest = negative ? number.substr(1) : number;
     const std::size_t exponent_at = std::min(rest.find_first_of("eE"), rest.size());

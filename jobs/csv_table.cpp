@@ -2,6 +2,7 @@
 #include "text/csv_field.h"
 #include "text/lists.h"
 #include "text/place.h"
+#include "text/plus_sign.h"
 #include "text/utf8.h"
 #include "text/visible_text.h"
 
@@ -269,9 +270,7 @@ std::optional<double> parse_number(const CsvCell& cell, std::string_view column,
                         "state the value, or remove the row");
         return std::nullopt;
     }
-    if (text.size() > 1 && text.front() == '+' && (is_digit(text[1]) || text[1] == '.')) {
-        text.remove_prefix(1);
-    }
+    text = text::without_plus(text);
     double value = 0.0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     const bool whole = end == text.data() + text.size();

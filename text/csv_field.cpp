@@ -6,6 +6,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "text/plus_sign.h"
 #include "text/small_letters.h"
 
 namespace gumcert::text {
@@ -13,9 +14,7 @@ namespace gumcert::text {
 namespace {
 
 bool is_number(std::string_view text) {
-    if (text.starts_with('+')) {
-        text.remove_prefix(1);
-    }
+    text = without_plus(text);
     double v = 0.0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), v);
     return error == std::errc() && end == text.data() + text.size();

@@ -32,7 +32,11 @@ std::string any_of(std::span<const std::string_view> words) {
 }
 
 std::string count_of(std::int64_t count, const std::string& noun) {
-    return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+    constexpr std::string_view k_vowels = "aeiou";
+    const bool is_of_y =
+        noun.size() > 1 && noun.back() == 'y' && k_vowels.find(noun[noun.size() - 2]) == std::string_view::npos;
+    const std::string several = is_of_y ? noun.substr(0, noun.size() - 1) + "ies" : noun + "s";
+    return std::to_string(count) + " " + (count == 1 ? noun : several);
 }
 
 }  // namespace gumcert::text

@@ -17,7 +17,7 @@ namespace gumcert::text {
 [[nodiscard]] std::string all_of(const std::vector<std::string>& names);
 /// "a, b or c".
 [[nodiscard]] std::string any_of(std::span<const std::string_view> words);
-/// "1 distance", "2 distances".
+/// "1 distance", "2 distances", "2 entries".
 [[nodiscard]] std::string count_of(std::int64_t count, const std::string& noun);
 
 }  // namespace gumcert::text

@@ -47,10 +47,11 @@ MAY_FOLLOW = {
     "reviewed": {"drafted", "authorised", "withdrawn"},
     "authorised": {"drafted", "issued", "withdrawn"},
     "issued": {"amended-by", "superseded", "withdrawn"},
-    "amended-by": set(),
-    "superseded": set(),
+    "amended-by": {"amended-by", "superseded", "withdrawn"},  # where its amendment was withdrawn
+    "superseded": {"amended-by", "superseded", "withdrawn"},
     "withdrawn": set(),
 }
+ENDED = ("amended-by", "superseded")
 KINDS_OF_LIFE = set().union(*MAY_FOLLOW.values())
 
 
@@ -205,6 +206,10 @@ def is_hidden(character):
     return any(first <= ord(character) <= last for first, last in HIDDEN)
 
 
+def counted(entries):
+    return f"{entries} {'entry' if entries == 1 else 'entries'}"
+
+
 def shown(words):
     """A text of others as one honest line of a terminal."""
     return "".join(f"\\u{{{ord(c):04X}}}" if 0xD800 <= ord(c) <= 0xDFFF or (is_hidden(c) and c not in "\u200c\u200d") else c for c in words)
@@ -330,9 +335,16 @@ class Rules:
             return "the first entry, and no other one, is \"created\""
         if entry["at"] < self.last_at:
             return "it is earlier than the entry before"
+        clock = text(body, "clock").encode()
+        if body.get("clock") is not None and (not TIME.fullmatch(clock) or clock >= entry["at"]):
+            return "its clock is no time before its own"
         if self.due and (kind, number) != self.due[:2]:
             return f"\"{self.due[0]}\" {self.due[1]} is missing before it"
-        return (self.breach_of_life if kind in KINDS_OF_LIFE else self.breach_of_archive)(entry, names, body) or self.breach_of_person(names)
+        wrong = (self.breach_of_life if kind in KINDS_OF_LIFE else self.breach_of_archive)(entry, names, body) or self.breach_of_person(names)
+        # After a clock that was ahead: docs/adr/0087-a-clock-that-was-ahead.md. A part of the log does not have the entry before.
+        if not wrong and clock and self.judges_numbers and entry["at"] != self.last_at:
+            return "the clock said another time, and its own is not that of the entry before"
+        return wrong
 
     def breach_of_archive(self, entry, names, body):
         kind = names["kind"]
@@ -353,13 +365,13 @@ class Rules:
             return "no certificate is named"
         life = self.lives.get(number)
         state = life["state"] if life else ""
-        if kind not in MAY_FOLLOW[state]:
+        if kind not in MAY_FOLLOW[state] or (state in ENDED and not self.may_be_amended(number)):
             return f"certificate {number} is {state or 'not in the archive'}, and not to be {kind}"
         if text(body, "old", "state") != state or text(body, "new", "state") != kind:
             return "old or new state is another one"
         if kind == "numbered":
             series, ordinal = text(body, "new", "series"), part(body, "new", "ordinal")
-            good = type(ordinal) is int and self.is_next(number, series, ordinal, text(body, "new", "amends"), entry["at"][:4].decode())
+            good = type(ordinal) is int and self.is_next(number, series, ordinal, text(body, "new", "amends"), (text(body, "clock") or entry["at"].decode())[:4])
             return None if good or not self.judges_numbers else f"the number {number} does not follow the last one"
         if kind == "drafted":
             return self.breach_of_draft(names, body, life)
@@ -368,7 +380,7 @@ class Rules:
         if kind == "issued":
             if not life["documents"]:
                 return "there is no document"
-            if life["amends"] and self.state(life["amends"]) != "issued":
+            if life["amends"] and not self.may_be_amended(life["amends"]):
                 return f"the certificate that it amends, {life['amends']}, is not issued"
         if kind in ("amended-by", "superseded") and self.due != (kind, number, text(body, "new", "by")):
             return "no amendment was issued just before"
@@ -381,7 +393,7 @@ class Rules:
             free = self.ordinals.get(series, 0) + 1
             while f"{series}{free}" in self.lives:
                 free += 1
-            return self.state(amends) == "issued" and series == amends + "/A" and ordinal == free and number == f"{series}{ordinal}"
+            return self.may_be_amended(amends) and series == amends + "/A" and ordinal == free and number == f"{series}{ordinal}"
         pattern = self.settings["numbering"]
         return (pattern and series == pattern.replace("YYYY", year, 1) and number_in(series, ordinal) == number and
                 ordinal == self.ordinals.get(series, 0) + 1)
@@ -394,7 +406,7 @@ class Rules:
             return "record or documents have another form"
         amends, original = body.get("amends"), text(body, "amends", "number")
         if amends is not None:
-            if self.state(original) != "issued" or original == number:
+            if not self.may_be_amended(original) or original == number:
                 return f"the certificate that it amends, {original}, is not issued"
             changes = part(amends, "changes")
             if text(amends, "kind") not in ("amended", "replaced") or not text(body, "why") or not isinstance(changes, list) or not changes:
@@ -419,6 +431,11 @@ class Rules:
 
     def state(self, number):
         return self.lives[number]["state"] if number in self.lives else ""
+
+    def may_be_amended(self, number):
+        """It is issued and holds, or what took its place was withdrawn."""
+        state = self.state(number)
+        return state == "issued" or (state in ENDED and self.state(self.lives[number]["later"]) == "withdrawn")
 
     def take(self, entry, names, body):
         kind, number = names["kind"], names["certificate"]
@@ -466,9 +483,9 @@ def faults_of_printed_heads(data, is_of_log, drafted, archived):
     """A head that a document prints is one of the log, from before the document, with a draft of its record."""
     for size, root in printed_heads(data):
         if size >= archived or not is_of_log(size, root):
-            yield f"prints a head of {size} entries, which the log did not have before the document"
+            yield f"prints a head of {counted(size)}, which the log did not have before the document"
         elif drafted > size:
-            yield f"prints a head of {size} entries, which does not contain the draft of its record"
+            yield f"prints a head of {counted(size)}, which does not contain the draft of its record"
 
 
 def contents_named_by(entry):
@@ -596,15 +613,15 @@ def verify_head(head, name, heads, known, public_key, tell):
         yield f"{name}: its proof does not lead to its root"
     for other in heads:
         if other.size > head.size and not leads_to(other, head, known):
-            yield f"{name}: the head of {other.size} entries does not prove that it extends it"
+            yield f"{name}: the head of {counted(other.size)} does not prove that it extends it"
         elif other.size <= head.size and not leads_to(head, other, known):
-            yield f"{name}: does not prove that it extends the head of {other.size} entries"
-    tell(f"{head.size} entries, {head.at.decode()}; extends " +
-         (f"a head of {head.extends[0]} entries" if head.extends else "no earlier head"))
+            yield f"{name}: does not prove that it extends the head of {counted(other.size)}"
+    tell(f"{counted(head.size)}, {head.at.decode()}; extends " +
+         (f"a head of {counted(head.extends[0])}" if head.extends else "no earlier head"))
     tell(signer_in_words(head.signature, public_key, False))
     newest = max(heads, key=lambda one: one.size, default=head)
     if newest.size > head.size:
-        tell(f"a newer head is given, of {newest.size} entries, {newest.at.decode()}")
+        tell(f"a newer head is given, of {counted(newest.size)}, {newest.at.decode()}")
     for line in times_to_come([("the head", head.at), *(("a given head", one.at) for one in heads)]):
         tell(line)
 
@@ -739,11 +756,11 @@ def findings_of(database, heads, tell):
             yield f"entry {seq}: the content {digest} is not there"
     for head in heads:
         if head.archive != hashes[0][0]:
-            yield f"head of {head.size} entries: one of another archive"
+            yield f"head of {counted(head.size)}: one of another archive"
         elif head.size > len(leaves):
-            yield f"head of {head.size} entries: the archive has {len(leaves)}"
+            yield f"head of {counted(head.size)}: the archive has {counted(len(leaves))}"
         elif roots.first(head.size) != head.root or hashes[head.size - 1] != (head.chain, head.at):
-            yield f"head of {head.size} entries: the entries of the archive up to there are others"
+            yield f"head of {counted(head.size)}: the entries of the archive up to there are others"
 
 
 def as_text(value):
@@ -828,7 +845,7 @@ def faults_of_head(other, head, known, proved):
     def proves(later, earlier):
         return later.proves_extension_of(earlier) or (later is head and (earlier.size, earlier.root) in proved)
 
-    name = f"head of {other.size} entries, {other.at.decode()}"
+    name = f"head of {counted(other.size)}, {other.at.decode()}"
     if (other.archive != head.archive or (other.size == head.size and (other.root, other.chain, other.at) != (head.root, head.chain, head.at)) or
             (other.at > head.at if other.size < head.size else other.at < head.at)):
         yield f"{name}: the evidence is of another archive, or of a log that was rewritten"
@@ -895,7 +912,7 @@ def verify_evidence(value, heads, public_key, verdict, known=()):
         if fault:
             yield fault
     if head.extends and not head.begins_with(*head.extends):
-        yield f"head of {head.size} entries: its proof does not lead to its root"
+        yield f"head of {counted(head.size)}: its proof does not lead to its root"
     for other in heads:
         yield from faults_of_head(other, head, [*heads, *known], proved)
     holding = {life["record"], *life["documents"]} if life else set()
@@ -908,7 +925,7 @@ def evidence_in_words(verdict, is_sound, heads, public_key):
     words = chain[0][1] if chain else "of unknown state"
     for later, state in chain[1:]:
         words += f", see {later}, which is {state or 'of unknown state'}"
-    when = f", as the archive stood at {head.at.decode()} ({head.size} entries)"
+    when = f", as the archive stood at {head.at.decode()} ({counted(head.size)})"
     if is_sound and public_key and verdict["states"]:
         yield f"certificate {number}, {words}{when}"
     else:
@@ -921,7 +938,7 @@ def evidence_in_words(verdict, is_sound, heads, public_key):
         yield (f"document {name}: {digest}" if name else f"record: {digest}") + ("" if holds else ", of an earlier draft")
     newest = max(heads, key=lambda one: one.size, default=head)
     if newest.size > head.size:
-        yield f"a newer head is given, of {newest.size} entries, {newest.at.decode()}: what came since is not in this evidence"
+        yield f"a newer head is given, of {counted(newest.size)}, {newest.at.decode()}: what came since is not in this evidence"
     states = [("the statement of states", verdict["states"].at.encode())] if verdict["states"] else []
     yield from times_to_come([("the head", head.at), *states, *(("a given head", one.at) for one in heads)])
 

@@ -63,7 +63,8 @@ std::string_view without_blanks(std::string_view text) {
 
 std::optional<double> printed_number(std::string_view digits, char mark) {
     std::string plain(digits.starts_with('+') ? digits.substr(1) : digits);
-    if (plain.empty() || (!is_digit(plain.front()) && plain.front() != '-' && plain.front() != mark)) {
+    if (digits.starts_with("+-") || plain.empty() ||
+        (!is_digit(plain.front()) && plain.front() != '-' && plain.front() != mark)) {
         return std::nullopt;
     }
     if (mark != '.') {

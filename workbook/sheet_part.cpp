@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "text/plus_sign.h"
 #include "text/utf8.h"
 #include "text/visible_text.h"
 #include "workbook/formula_text.h"
@@ -272,7 +273,7 @@ private:
             digits.remove_suffix(1);
         }
         double number = 0.0;
-        const std::string_view unsigned_digits = digits.starts_with('+') ? digits.substr(1) : digits;
+        const std::string_view unsigned_digits = text::without_plus(digits);
         const auto [end, failure] =
             std::from_chars(unsigned_digits.data(), unsigned_digits.data() + unsigned_digits.size(), number);
         if (failure != std::errc() || end != unsigned_digits.data() + unsigned_digits.size() ||

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "app/cli/terminal/clock.h"
+#include "app/cli/terminal/interruption.h"
 #include "app/cli/terminal/output_places.h"
 #include "app/cli/terminal/share_folder.h"
 #include "evaluation/check_file.h"
@@ -120,7 +121,9 @@ ExitCode check_files(const std::vector<std::string>& files, bool certificates, c
                 check = evaluation::naming_job(file, several, [&] {
                     return evaluation::check_file(
                         file, static_cast<unsigned>(common.threads), templates_folder(share),
-                        [&](const std::string& text) { progress(text); }, laboratory);
+                        progress_within_walls(common, text::one_line(file),
+                                              [&](const std::string& text) { progress(text); }),
+                        laboratory);
                 });
             }
             if (several) {

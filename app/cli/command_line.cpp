@@ -134,7 +134,7 @@ void add_common(CLI::App& command, CommonOptions& common) {
         .add_option(
             "--time-limit", common.time_limit,
             "Seconds after which the command ends; 0 is no limit. Default: none; of commands that read files of "
-            "others 30 for every 10 MB")
+            "others 30 for every 10 MB, and 600 for the evaluation of a record (gumcert limits)")
         ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{100'000'000}))
         ->type_name("SECONDS");
     add_file(command, "--refusal-log", common.refusal_log,
@@ -380,10 +380,10 @@ void add_archive(CLI::App& program, Arguments& a) {
                     "A text of your own that makes the request one: asked again with it, nothing happens twice")
         ->type_name("KEY");
     command
-        .add_option(
-            "--today", o.today,
-            "The day by the calendar, 2026-11-24: needed where the last entry is more than a year old, because a "
-            "clock that is wrong once in the future stops the archive")
+        .add_option("--today", o.today,
+                    "The day by the calendar, 2026-11-24: needed where the last entry is more than a week old, or of "
+                    "another year "
+                    "and a number is taken, because of a clock that may be ahead; and after a clock that was")
         ->type_name("DAY");
     command
         .add_option("--format", o.format,

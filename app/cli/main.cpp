@@ -31,6 +31,7 @@
 #include "app/cli/terminal/terminal.h"
 #include "archive/store/open_store.h"
 #include "encoding/openssl_configuration.h"
+#include "evaluation/limits.h"
 
 namespace {
 
@@ -76,6 +77,12 @@ CommonOptions with_walls_of_command(const Arguments& a) {
         std::vector<std::filesystem::path> files(a.archive.named.begin(), a.archive.named.end());
         files.insert(files.end(), a.archive.heads.begin(), a.archive.heads.end());
         return with_walls(a.common, files);
+    }
+    if (a.command == "rerun" ||
+        (a.command == "check" && !reads_certificates)) {  // records, each with a time of its own
+        CommonOptions common = a.common;
+        common.memory_limit = common.memory_limit.value_or(evaluation::walls_of_evaluation().memory);
+        return common;
     }
     return a.command == "verify" || reads_certificates ? with_walls(a.common, {a.files.begin(), a.files.end()})
                                                        : a.common;

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "app/cli/terminal/interruption.h"
 #include "app/cli/terminal/share_folder.h"
 #include "evaluation/read_file.h"
 #include "evaluation/rerun_record.h"
+#include "text/visible_text.h"
 
 namespace gumcert::cli {
 
@@ -17,9 +19,10 @@ ExitCode rerun_records(const std::vector<std::string>& records, const std::strin
     ProgressLine progress(!common.quiet);
     for (const std::string& name : records) {
         const ExitCode one = explained(common, [&] {
-            all.push_back(evaluation::rerun_record(evaluation::read_file(name), name,
-                                                   static_cast<unsigned>(common.threads), templates,
-                                                   [&](const std::string& text) { progress(name + ": " + text); }));
+            all.push_back(evaluation::rerun_record(
+                evaluation::read_file(name), name, static_cast<unsigned>(common.threads), templates,
+                progress_within_walls(common, text::one_line(name),
+                                      [&](const std::string& text) { progress(name + ": " + text); })));
             return all.back().is_negative() ? negative_answer : done;
         });
         code = std::max(code, one);

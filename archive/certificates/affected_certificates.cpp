@@ -405,8 +405,8 @@ Recalculated recalculated(const std::string& number, const std::string& waits_fo
                 cannot_say(number, waits_for.empty() ? "its job does not take the standard from the register"
                                                      : "it rests on " + waits_for);
         } else {
-            const reports::EvaluationRecord again =
-                evaluation::evaluated_again(record, number, 1, correction.templates);
+            const reports::EvaluationRecord again = evaluation::evaluated_again(
+                record, number, 1, correction.templates, correction.watch ? correction.watch() : gum::Progress());
             const nlohmann::json now = reports::to_json_value(again);
             evaluation::tell_changes(read.value, now, rerun);
             done.result.texts = texts_that_change(record, again);
@@ -432,7 +432,7 @@ void work_out(AffectedCertificate& one, const std::string& original, const Corre
         one.recalculated = std::move(done.result);
         corrected = std::move(done.corrected);
     }
-    if (!needs_amendment(one)) {
+    if (!drafts.write || !needs_amendment(one)) {
         return;
     }
     if (!corrected) {  // another machine has calculated it
@@ -441,10 +441,8 @@ void work_out(AffectedCertificate& one, const std::string& original, const Corre
     }
     const std::vector<outputs::OutputFile> draft = drafted_amendment(one, original, *corrected, correction);
     if (!draft.empty()) {
+        drafts.write(draft);
         one.draft_folder = one.draft_name;
-        if (drafts.write) {
-            drafts.write(draft);
-        }
     }
 }
 

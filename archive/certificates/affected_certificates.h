@@ -50,7 +50,8 @@ struct AffectedCertificate {
     std::string draft_name = {};  ///< of a folder for its draft, another one for each certificate that was found
 
     std::optional<Recalculation> recalculated = {};
-    std::string draft_folder = {};  ///< of the amendment, after recalculate(); "" where none is needed
+    std::string draft_folder =
+        {};  ///< of the amendment, after recalculate(); "" where none is needed, or nobody writes it
 };
 
 /// Every certificate of an archive whose record names the standard, with a day of use in the period or without any, and
@@ -69,6 +70,8 @@ struct Correction {
     std::string corrected;  ///< bytes of its file in the register, with what holds
     std::string reason;     ///< of the amendments
     std::filesystem::path templates;
+    /// Asked before each evaluation for its progress, which may end it: such a certificate is one of which nothing can be said.
+    std::function<gum::Progress()> watch = {};
 };
 
 /// On which certificate one rests that is not right itself: "EX-1, which is to be amended first"; "" where on the standard.

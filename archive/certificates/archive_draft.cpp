@@ -34,6 +34,7 @@
 #include "reports/printable_text.h"
 #include "reports/record/make/certificate/amended_record.h"
 #include "signing/verify.h"
+#include "text/lists.h"
 #include "text/visible_text.h"
 
 namespace gumcert::archive {
@@ -541,7 +542,9 @@ private:
             }
         }
         if (languages.empty() || languages.size() > 2) {
-            refuse_disagreement(file, "is in " + std::to_string(languages.size()) + " languages, not in one or two");
+            refuse_disagreement(file, "is in " +
+                                          text::count_of(static_cast<std::int64_t>(languages.size()), "language") +
+                                          ", not in one or two");
         }
         return assets;
     }
@@ -611,10 +614,17 @@ CheckedDraft checked_draft(const fs::path& record_file, const std::vector<fs::pa
                           ? "state \"certificate\": {\"number\": …} in the job of the comparison, and evaluate it again"
                           : "state the certificate data in the job, docs/certificate_data.md"});
     }
-    reports::EvaluationRecord again = checked.record;
-    if (const std::optional<gum::Diagnostic> why =
-            evaluation::recompute_record(again, name, checks.threads, checks.templates, checks.progress)) {
-        throw gum::InputError(*why);
+    const auto evaluate = [&] {
+        reports::EvaluationRecord again = checked.record;
+        if (const std::optional<gum::Diagnostic> why =
+                evaluation::recompute_record(again, name, checks.threads, checks.templates, checks.progress)) {
+            throw gum::InputError(*why);
+        }
+    };
+    if (checks.evaluates_within) {
+        checks.evaluates_within(evaluate);
+    } else {
+        evaluate();
     }
     checked.draft.number = data.number;
     if (!checked.record.certificate) {

@@ -22,10 +22,11 @@ struct ArchiveChecks {
     std::optional<std::vector<signing::Bytes>> trusted;  ///< certificates, DER; none: nobody was named
     std::int64_t now = 0;                                ///< seconds since 1970-01-01 UTC
     gum::Progress progress;
-    /// Does some work on files that others may have made, within walls of time and memory; empty: without any. The evaluation of
-    /// the record is outside: how long it takes is said by its job.
+    /// Does some work on files that others may have made, within walls of time and memory; empty: without any.
     std::function<void(const std::vector<std::filesystem::path>& files, const std::function<void()>& work)>
         within_walls = {};
+    /// The same of the evaluation of the record, which may take longer: how long is said by its job, and that is of others too.
+    std::function<void(const std::function<void()>& work)> evaluates_within = {};
 };
 
 /// A draft and what its record says of the certificate.

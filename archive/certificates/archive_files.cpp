@@ -11,6 +11,7 @@
 #include "evaluation/read_file.h"
 #include "json/members.h"
 #include "signing/ed25519.h"
+#include "text/lists.h"
 #include "text/visible_text.h"
 
 namespace gumcert::archive {
@@ -233,7 +234,7 @@ VerifiedFile verified_evidence(const std::string& text, const std::string& file,
                  {"contents", evidence.contents.size()},
                  {"times_to_come", to_come},
                  {"findings", as_json(said.findings)}};
-    const std::string when = ", as the archive stood at " + head.at + " (" + std::to_string(head.size) + " entries)";
+    const std::string when = ", as the archive stood at " + head.at + " (" + text::count_of(head.size, "entry") + ")";
     std::vector<std::string> lines = {"certificate " + text::one_line(evidence.certificate) +
                                           (is_proved      ? ", "
                                            : said.sound() ? ": these entries show it "
@@ -246,7 +247,7 @@ VerifiedFile verified_evidence(const std::string& text, const std::string& file,
     }
     lines.insert(lines.end(), parts.begin(), parts.end());
     if (is_outdated) {
-        lines.push_back("a newer head is given, of " + std::to_string(newest->size) + " entries, " + newest->at +
+        lines.push_back("a newer head is given, of " + text::count_of(newest->size, "entry") + ", " + newest->at +
                         ": what came since is not in this evidence");
     }
     lines.insert(lines.end(), to_come.begin(), to_come.end());
@@ -276,7 +277,7 @@ VerifiedFile verified_head(const std::string& text, const std::string& file, con
     }
     const Head* newest = nullptr;
     for (const Head& other : heads.all()) {
-        const std::string named = "the head of " + std::to_string(other.size) + " entries, " + other.at;
+        const std::string named = "the head of " + text::count_of(other.size, "entry") + ", " + other.at;
         if (other.size > head.size) {
             newest = newest == nullptr || other.size > newest->size ? &other : newest;
             if (!leads_to(other, head, heads.known())) {
@@ -302,12 +303,12 @@ VerifiedFile verified_head(const std::string& text, const std::string& file, con
                  {"trusted", heads.has_key() && said.sound()},
                  {"findings", as_json(said.findings)}};
     said.text = text::one_line(file) + ": " + (said.sound() ? "sound" : "NOT SOUND") + "\n  " +
-                std::to_string(head.size) + " entries, " + head.at +
-                (head.extends ? "; extends a head of " + std::to_string(head.extends->size) + " entries"
+                text::count_of(head.size, "entry") + ", " + head.at +
+                (head.extends ? "; extends a head of " + text::count_of(head.extends->size, "entry")
                               : "; extends no earlier head") +
                 "\n  " + signer_in_words(head.signature, heads.key(), false) + "\n";
     if (newest != nullptr) {
-        said.text += "  a newer head is given, of " + std::to_string(newest->size) + " entries, " + newest->at + "\n";
+        said.text += "  a newer head is given, of " + text::count_of(newest->size, "entry") + ", " + newest->at + "\n";
     }
     for (const std::string& line : to_come) {
         said.text += "  " + line + "\n";
@@ -340,9 +341,10 @@ VerifiedFile verified_store(Store& store, const TrustedHeads& heads,
                  {"times_to_come", to_come},
                  {"findings", as_json(said.findings)}};
     said.text = text::one_line(store.name()) + ": " + (said.sound() ? "sound" : "NOT SOUND") + "; " +
-                std::to_string(verification.entries) + " entries, " + std::to_string(verification.contents) +
-                " contents, " + std::to_string(verification.certificates) + " certificates, " +
-                std::to_string(heads.all().size()) + " earlier heads\n";
+                text::count_of(static_cast<std::int64_t>(verification.entries), "entry") + ", " +
+                text::count_of(static_cast<std::int64_t>(verification.contents), "content") + ", " +
+                text::count_of(static_cast<std::int64_t>(verification.certificates), "certificate") + ", " +
+                text::count_of(static_cast<std::int64_t>(heads.all().size()), "earlier head") + "\n";
     if (verification.head) {
         said.text += "  head " + encoding::hexadecimal(verification.head->root) + " of " +
                      text::one_line(verification.head->at) + "\n";

@@ -10,6 +10,7 @@
 #include "archive/certificates/message_json.h"
 #include "evaluation/recompute_record.h"
 #include "reports/record/evaluation_record.h"
+#include "text/lists.h"
 #include "text/visible_text.h"
 
 namespace gumcert::archive {
@@ -49,7 +50,7 @@ std::vector<gum::Diagnostic> differences_of(const reports::EvaluationRecord& arc
     if (found.size() > k_most_differences) {
         const std::size_t left_out = found.size() - k_most_differences;
         found.resize(k_most_differences);
-        found.push_back(told(name, std::to_string(left_out) + " more places",
+        found.push_back(told(name, text::count_of(static_cast<std::int64_t>(left_out), "more place"),
                              "the first " + std::to_string(k_most_differences) + " are listed",
                              "evaluate the job by hand from its files"));
     }
@@ -105,11 +106,12 @@ std::vector<gum::Diagnostic> first_differences(const std::vector<gum::Diagnostic
     std::vector<gum::Diagnostic> first(all.begin(), all.begin() + evaluation::k_most_disagreements);
     const bool is_all = all.size() <= k_most_differences;
     const std::size_t more = std::min(all.size(), k_most_differences) - first.size();
-    first.push_back({.code = "GC-ARCHIVE-0073",
-                     .where = number,
-                     .what = (is_all ? "" : "more than ") + std::to_string(more) + " more places",
-                     .rule = "the first " + std::to_string(first.size()) + " are shown here",
-                     .action = "--format json lists them"});
+    first.push_back(
+        {.code = "GC-ARCHIVE-0073",
+         .where = number,
+         .what = (is_all ? "" : "more than ") + text::count_of(static_cast<std::int64_t>(more), "more place"),
+         .rule = "the first " + std::to_string(first.size()) + " are shown here",
+         .action = "--format json lists them"});
     return first;
 }
 

@@ -419,8 +419,8 @@ std::string statistics_text(const ArchiveStatistics& statistics) {
         text += "  " + text::visible(one.method.empty() ? "(no method)" : one.method, 60) + ", " +
                 text::visible(one.input, 60) + ": " + text::visible(one.scatter.number, 40) + "  " +
                 text::visible(one.scatter.day, 20) + "  " + digits(one.scatter.standard_deviation) + " of " +
-                std::to_string(one.scatter.n) + " readings near " + digits(one.scatter.mean) + " " +
-                text::visible(one.unit, 20) + "\n";
+                text::count_of(static_cast<std::int64_t>(one.scatter.n), "reading") + " near " +
+                digits(one.scatter.mean) + " " + text::visible(one.unit, 20) + "\n";
     }
     for (const std::string& number : statistics.not_read) {
         text += "Not read: the record of " + text::visible(number, 80) + "\n";

@@ -143,7 +143,8 @@ std::size_t ArchiveWorker::do_some(const SharedWork& work) {
     const Correction correction{.standard = gumcert::json::text_of(input, "standard"),
                                 .corrected = gumcert::json::text_of(input, "corrected"),
                                 .reason = {},
-                                .templates = templates_};
+                                .templates = templates_,
+                                .watch = watch_};
     if (work.kind != k_recalculation && work.kind != k_replay) {
         throw std::logic_error("work of a kind that this version does not know: " + work.kind);
     }
@@ -157,7 +158,8 @@ std::size_t ArchiveWorker::do_some(const SharedWork& work) {
         std::vector<std::string> results(tasks.size());
         threads_.run(tasks.size(), [&](unsigned /*worker*/, std::size_t i) {
             results[i] = work.kind == k_replay
-                             ? as_text(replay_record(records[i], tasks[i].name, 1, templates_))
+                             ? as_text(replay_record(records[i], tasks[i].name, 1, templates_,
+                                                     watch_ ? watch_() : gum::Progress()))
                              : as_text(recalculation_of(tasks[i].name, gumcert::json::text_of(inputs[i], "waits_for"),
                                                         records[i], correction));
         });

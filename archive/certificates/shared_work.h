@@ -36,8 +36,14 @@ class ArchiveWorker {
 public:
     /// \param threads    as of gum::WorkerThreads
     /// \param templates  of this machine
-    ArchiveWorker(Archive& archive, WorkTable& table, unsigned threads, std::filesystem::path templates)
-        : archive_(archive), table_(table), threads_(threads), templates_(std::move(templates)) {}
+    /// \param watch      as of Correction
+    ArchiveWorker(Archive& archive, WorkTable& table, unsigned threads, std::filesystem::path templates,
+                  std::function<gum::Progress()> watch = {})
+        : archive_(archive),
+          table_(table),
+          threads_(threads),
+          templates_(std::move(templates)),
+          watch_(std::move(watch)) {}
 
     /// Does some tasks that nobody else has.
     /// \return how many; 0 where none is left, or others have them
@@ -51,6 +57,7 @@ private:
     WorkTable& table_;
     gum::WorkerThreads threads_;
     std::filesystem::path templates_;
+    std::function<gum::Progress()> watch_;
 };
 
 /// Puts the results of shared work into the certificates, and ranks them.

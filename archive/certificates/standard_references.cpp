@@ -208,8 +208,7 @@ bool is_joined(char32_t code) {
     return code == U'-' || code == U'/' || code == U'_' || code == U'.' || (code >= 0x2010 && code <= 0x2012);
 }
 
-/// Letters that follow each other in one word. Chinese and Japanese have no blanks between words, and Korean puts its particles
-/// behind a name: letters of another script beside a name are another word.
+/// Letters that follow each other in one word; letters of another script beside a name are another word.
 enum class Letters : std::uint8_t { none, western, other, digits };
 
 Letters letters_of(char32_t code) {
@@ -223,10 +222,32 @@ Letters letters_of(char32_t code) {
     const bool is_letter = kind == gum::CharacterClass::name_start && plain != U'_';
     constexpr char32_t k_first_of_others = 0x530;
     const bool is_western = plain < k_first_of_others || (plain >= 0x1E00 && plain < 0x2E80);
-    return is_rare_ideograph                             ? Letters::other
-           : kind == gum::CharacterClass::combining_mark ? Letters::western
-           : is_letter                                   ? (is_western ? Letters::western : Letters::other)
-                                                         : Letters::none;
+    return is_rare_ideograph                                          ? Letters::other
+           : is_letter || kind == gum::CharacterClass::combining_mark ? (is_western ? Letters::western : Letters::other)
+                                                                      : Letters::none;
+}
+
+/// Of a script that has no blanks between words, or, as Korean, puts particles behind a name without one: from a letter of it
+/// beside another one nobody can tell where a name ends.
+bool is_without_blanks(char32_t code) {
+    static constexpr std::array<std::pair<char32_t, char32_t>, 14> k_blocks{{
+        {0x0E00, 0x0FFF},    // Thai, Lao, Tibetan
+        {0x1000, 0x109F},    // Myanmar
+        {0x1100, 0x11FF},    // Hangul
+        {0x1780, 0x17FF},    // Khmer
+        {0x1A20, 0x1AAF},    // Tai Tham
+        {0x2E80, 0x2FDF},    // radicals of ideographs
+        {0x3005, 0x3007},    // 々〆〇
+        {0x3021, 0x31FF},    // kana, bopomofo, Hangul
+        {0x3400, 0x4DBF},    // ideographs
+        {0x4E00, 0x9FFF},    // ideographs
+        {0xA960, 0xD7FF},    // Hangul, Javanese, Myanmar, Tai Viet
+        {0xF900, 0xFAFF},    // ideographs
+        {0xFF66, 0xFFDC},    // narrow kana and Hangul
+        {0x20000, 0x3FFFF},  // ideographs
+    }};
+    return std::any_of(k_blocks.begin(), k_blocks.end(),
+                       [code](const auto& block) { return code >= block.first && code <= block.second; });
 }
 
 /// Whether a letter or digit beside a name makes it another name; punctuation of whatever script and blanks of whatever
@@ -235,14 +256,20 @@ Letters letters_of(char32_t code) {
 /// \param edge  the character of the name beside it
 bool goes_on(char32_t code, char32_t edge) {
     const Letters beside = letters_of(code);
-    const bool is_other_edge = letters_of(edge) == Letters::other;
-    return beside == Letters::digits || beside == (is_other_edge ? Letters::other : Letters::western);
+    if (letters_of(edge) != Letters::other) {
+        return beside == Letters::digits || beside == Letters::western;
+    }
+    return beside == Letters::digits ||
+           (beside == Letters::other && !(is_without_blanks(code) && is_without_blanks(edge)));
 }
 
 /// Whether a name ends at a place of a text: what follows is no part of it. "STD-017." ends a sentence.
 bool ends_at(std::string_view text, std::size_t at) {
     const char32_t edge = character_before(text, at).code;
     const Neighbour next = character_at(text, at);
+    if (gum::character_class(next.code) == gum::CharacterClass::combining_mark) {
+        return false;  // it makes another letter of the last one
+    }
     const Neighbour behind = is_joined(next.code) ? character_at(text, at + next.bytes) : Neighbour{};
     return !goes_on(next.code, edge) && !goes_on(behind.code, edge);
 }

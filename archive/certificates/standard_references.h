@@ -37,7 +37,8 @@ struct RecordReferences {
 
 /// Whether a text names something: all of it is the name, or the name stands in it as a word of its own. "STD-017" stands in
 /// "STD-017, certificate 12", in quotes of any language and in Chinese without blanks, and neither in "STD-0171" nor in "STD-017-2"
-/// or "STD-017/A1".
+/// or "STD-017/A1". A name in letters of a script without blanks between words, or in Korean, stands in every text that has its
+/// letters: 標準器 in 用標準器校準, and in 標準器具, for nobody can tell the two apart, and one standard that is missed is worse.
 [[nodiscard]] bool names(std::string_view text, std::string_view name);
 
 /// The letters and digits of ASCII that stand together in a text: "STD" and "017" of "STD-017". Whatever text names something has

@@ -20,6 +20,7 @@
 #include "reports/dcc/dcc_element.h"
 #include "reports/dcc/document_limits.h"
 #include "reports/view/certificate_view.h"
+#include "text/plus_sign.h"
 #include "text/small_letters.h"
 
 namespace gumcert::reports {
@@ -123,10 +124,10 @@ bool holds_number(const std::string& text) {
 }
 
 std::optional<double> number_of(const std::string& text) {
-    const char* const begin = text.data() + (text.starts_with('+') ? 1 : 0);
+    const std::string_view digits = text::without_plus(text);
     double value = 0.0;
-    const auto [end, failure] = std::from_chars(begin, text.data() + text.size(), value);
-    const bool whole = failure == std::errc() && end == text.data() + text.size() && std::isfinite(value);
+    const auto [end, failure] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    const bool whole = failure == std::errc() && end == digits.data() + digits.size() && std::isfinite(value);
     return whole ? std::optional(value) : std::nullopt;
 }
 

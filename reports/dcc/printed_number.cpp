@@ -4,10 +4,12 @@
 #include <charconv>
 #include <cmath>
 
+#include "text/plus_sign.h"
+
 namespace gumcert::reports {
 
-std::optional<PrintedNumber> printed_number(std::string_view text) {
-    text.remove_prefix(text.starts_with('+') ? 1 : 0);
+std::optional<PrintedNumber> printed_number(std::string_view printed) {
+    const std::string_view text = text::without_plus(printed);
     PrintedNumber number;
     const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), number.value);
     if (failure != std::errc() || end != text.data() + text.size() || !std::isfinite(number.value)) {

@@ -289,14 +289,17 @@ void add_rotary_table(std::string& text, const EvaluationRecord& record) {
         text += fmt::format("  {:<4} {:>9} ± {} {}   {}\n", result.name, result.printed.value, result.printed.U,
                             result.printed.unit, result.description);
     }
-    text += fmt::format("\nError motions over {} angles, datum {}:\n", rotary.errors.size(),
+    text += fmt::format("\nError motions over {}, datum {}:\n",
+                        text::count_of(static_cast<std::int64_t>(rotary.errors.size()), "angle"),
                         rotary.datum == "home" ? "home" : "axis average line");
     for (const RangeRow& range : rotary.ranges) {
         const Printed& printed = range.stated.printed;
         text += fmt::format("  {}  range {:>7} ± {} {}\n", range.name, printed.value, printed.U, printed.unit);
     }
-    text += fmt::format("\nAdjustment: {} observations, {} parameters, chi-square {} on {}, p = {}\n",
-                        rotary.adjustment.observations, rotary.adjustment.parameters, rotary.adjustment.chi_square.text,
+    text += fmt::format("\nAdjustment: {}, {}, chi-square {} on {}, p = {}\n",
+                        text::count_of(static_cast<std::int64_t>(rotary.adjustment.observations), "observation"),
+                        text::count_of(static_cast<std::int64_t>(rotary.adjustment.parameters), "parameter"),
+                        rotary.adjustment.chi_square.text,
                         text::degrees_of_freedom(std::to_string(rotary.adjustment.degrees_of_freedom)),
                         rotary.adjustment.p_value.text);
     std::size_t removed = 0;

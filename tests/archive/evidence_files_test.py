@@ -22,8 +22,10 @@ import random
 import subprocess
 import sys
 import tempfile
+import time
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+TODAY = time.strftime("%Y-%m-%d", time.gmtime())
 SPEC = importlib.util.spec_from_file_location("verify_archive", ROOT / "tools" / "verify_archive.py")
 verify_archive = importlib.util.module_from_spec(SPEC)
 SPEC.loader.exec_module(verify_archive)
@@ -321,7 +323,7 @@ def several_files(both, signed, rng):
 def heads_between(both, signed):
     """Proofs lead through the heads of the years between, and either of two heads may be verified beside the other."""
     for earlier, later in (("late.json", "third.json"), ("third.json", "fourth.json")):
-        both.run("settings", "--store", "a.archive", "--by", "K. Keeper", "--why", f"as of {later}", "--person", "K. Keeper=keeper")
+        both.run("settings", "--store", "a.archive", "--by", "K. Keeper", "--why", f"as of {later}", "--today", TODAY, "--person", "K. Keeper=keeper")
         both.run("head", "--store", "a.archive", "--since", earlier, "-o", later)
     heads = {name: json.loads((both.folder / name).read_bytes()) for name in ("early.json", "late.json", "third.json", "fourth.json")}
     order = list(heads)
@@ -384,7 +386,7 @@ def main():
         listed = json.loads(both.run("list", "--store", "a.archive", "--format", "json").stdout)["certificates"]
         by_state = {one["state"]: one["number"] for one in listed if one["record"]}
         before = {state: export(number, "--sign", "key.pem") for state, number in by_state.items()}
-        both.run("settings", "--store", "a.archive", "--by", "K. Keeper", "--why", "agreed", "--person", "K. Keeper=keeper")
+        both.run("settings", "--store", "a.archive", "--by", "K. Keeper", "--why", "agreed", "--today", TODAY, "--person", "K. Keeper=keeper")
         both.run("head", "--store", "a.archive", "--since", "early.json", "--sign", "key.pem", "-o", "late.json")
         expect((folder / "late.json").exists(), "no head after a change of the settings")
         for state, signed in before.items():

@@ -30,7 +30,7 @@ def verified_by_the_second(archive, driver, address, folder):
     verifier = ROOT / "tools" / "verify_archive.py"
     copy, head, evidence = folder / "copy.archive", folder / "head.json", folder / "evidence.json"
     subprocess.run(archive("head", "--store", address, "-o", head, "-q"), check=True)
-    subprocess.run(archive("backup", "--store", address, "--by", "K. Keeper", "-o", copy, "-q"), check=True)
+    subprocess.run(archive("backup", "--store", address, "--by", "K. Keeper", "--today", time.strftime("%Y-%m-%d", time.gmtime()), "-o", copy, "-q"), check=True)
     subprocess.run(archive("export", "L-7", "--store", address, "--since", head, "-o", evidence, "-q"), check=True)
     faults = []
     for words in ([copy, "--head", head], [evidence, "--head", head]):

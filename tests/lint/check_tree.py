@@ -18,6 +18,8 @@ knows or would add; in a tree without git, at every file outside build folders.
   taken off
 - a handler of std::exception, in a layer that reads files, without one of std::bad_alloc before it: memory that ends says nothing
   of the file that is read, and is told as such
+- a count with a plural behind it in what the archive, summaries and the program tell ("1 certificates"): text::count_of() knows
+  both forms; "1 of 3 records" stands as it is
 - a layer of more than 25 units (a header with its source): it has more than one subject, and is to be divided by them
 """
 
@@ -106,6 +108,28 @@ def handlers_that_blame_a_file(name, text):
             handlers.add(caught[1])
 
 
+# Folders whose lines people read on a terminal.
+TOLD_ON_A_TERMINAL = ("app/", "archive/", "evaluation/", "issuing/", "outputs/", "reports/summary/", "self_test/")
+ONE_OF_MANY = re.compile(r'of (?:"\s*\+\s*)?$')
+COUNTED = re.compile(r"""\{\}\ (?:more\ |other\ |earlier\ )?(?P<a>[a-z]{3,}s)\b
+                       |to_string\((?:[^()"]|\((?:[^()]|\([^()]*\))*\))*\)\s*\+\s*"\ (?:more\ |other\ |earlier\ )?(?P<b>[a-z]{3,}s)\b""", re.VERBOSE)
+NO_PLURAL = {"agrees", "belongs", "breaks", "bytes", "does", "has", "names", "this"}  # verbs, and units of limits
+ALWAYS_SEVERAL = {("evaluation/kinds.cpp", "results"), ("reports/summary/record_summary.cpp", "trials"),
+                  ("archive/certificates/archive_statistics.cpp", "readings"), ("self_test/case_formula.cpp", "numbers"),
+                  ("self_test/case_formula.cpp", "parentheses"), ("self_test/case_run.cpp", "numbers")}
+
+
+def counts_with_a_plural(name, text):
+    """Lines with a number and a noun behind it that has no other form for one."""
+    if not name.startswith(TOLD_ON_A_TERMINAL) or not name.endswith(".cpp"):
+        return
+    for found in COUNTED.finditer(text):
+        noun = found["a"] or found["b"]
+        before = re.sub(r"std::$", "", text[:found.start()])
+        if noun not in NO_PLURAL and not ONE_OF_MANY.search(before) and (name, noun) not in ALWAYS_SEVERAL:
+            yield text.count("\n", 0, found.start()) + 1, noun
+
+
 def without_comments(text):
     text = re.sub(r"/\*.*?\*/|//[^\n]*", "", text, flags=re.DOTALL)
     text = re.sub(r"^[ \t]*#(?:[^\n\\]|\\\n|\\.)*", "", text, flags=re.MULTILINE)  # and without the preprocessor
@@ -191,6 +215,9 @@ def main(arguments):
         name = path.relative_to(root).as_posix()
         for number in handlers_that_blame_a_file(name, path.read_text(encoding="utf-8") if path.suffix == ".cpp" else ""):
             print(f"{name}:{number}: takes the end of the memory for a fault of the file; let std::bad_alloc through before")
+            found += 1
+        for number, noun in counts_with_a_plural(name, path.read_text(encoding="utf-8") if path.suffix == ".cpp" else ""):
+            print(f"{name}:{number}: \"{noun}\" behind a count that may be 1; use text::count_of()")
             found += 1
     for layer, reason in full_layers(root, files):
         print(f"{layer}: {reason}")

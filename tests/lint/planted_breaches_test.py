@@ -246,6 +246,16 @@ class Tree(PlantedTree):
                 self.expect(self.scan(), 1, f"{path}:2: ", reason)
                 (self.root / path).unlink()
 
+    def test_counts_have_two_forms(self):
+        for text in ('print("{} entries", n);', 'a = std::to_string(list.size()) +\n  " entries";', 'a = "{} more places";',
+                     'a = std::to_string(at(n)) + " earlier heads";'):
+            self.plant("archive/a.cpp", "\n" + text + "\n")
+            self.expect(self.scan(), 1, "archive/a.cpp:2: ", "use text::count_of()")
+        for text in ('print("{} of {} records", n, m);', 'a = std::to_string(n) + " of " + std::to_string(m) + " records";',
+                     'a = "entry " + std::to_string(n) + " names it";', 'a = text::count_of(n, "entry");'):
+            self.plant("archive/a.cpp", text + "\n")
+            self.expect(self.scan(), 0)
+
     def test_memory_that_ends_blames_no_file(self):
         handler = "    }} catch (const {}&) {{\n        a();\n"
         others = handler.format("std::exception")

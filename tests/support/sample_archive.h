@@ -15,16 +15,19 @@ namespace gumcert::archive::test {
 /// Times that follow each other, one minute apart.
 class Clock {
 public:
-    std::string next() {
-        const int minute = minutes_++;
+    std::string next() { return at(minutes_++); }
+    /// Of a clock that is two days ahead.
+    [[nodiscard]] std::string ahead() const { return at(minutes_ + 2880); }
+
+private:
+    int minutes_ = 0;
+
+    static std::string at(int minute) {
         char text[32];
         (void)std::snprintf(text, sizeof text, "2026-%02d-%02dT%02d:%02d:00Z", 1 + minute / 40320 % 12,
                             1 + minute / 1440 % 28, minute / 60 % 24, minute % 60);
         return text;
     }
-
-private:
-    int minutes_ = 0;
 };
 
 inline Draft sample_draft(const std::string& number, const std::string& content = "1") {
@@ -35,10 +38,11 @@ inline Draft sample_draft(const std::string& number, const std::string& content 
                           {"certificate.xml", "application/xml", "<dcc>" + number + " " + content + "</dcc>"}}};
 }
 
-/// A valid archive of chance: certificates on all ways of their life, amendments, changes of settings.
+/// A valid archive of chance: certificates on all ways of their life, amendments, changes of settings, and now and then an entry
+/// by a clock that was ahead.
 class ArchiveOfChance {
 public:
-    ArchiveOfChance(std::uint64_t seed) : random_(seed) {  // NOLINT(google-explicit-constructor)
+    ArchiveOfChance(std::uint64_t seed) : random_(seed), other_(seed + 1) {  // NOLINT(google-explicit-constructor)
         settings_.four_eyes = chance(2) == 0;
         settings_.numbering = chance(2) == 0 ? "EX-YYYY-####" : "";
         if (chance(2) == 0) {
@@ -75,18 +79,42 @@ public:
     }
 
 private:
-    std::mt19937_64 random_;
+    std::mt19937_64 random_, other_;
     Settings settings_;
     Clock clock_;
     int keys_ = 0;
 
     [[nodiscard]] int chance(int n) { return static_cast<int>(random_() % static_cast<std::uint64_t>(n)); }
 
+    [[nodiscard]] bool happens(int one_of) { return other_() % static_cast<std::uint64_t>(one_of) == 0; }
+
     [[nodiscard]] Request by(const std::string& who, const std::string& why = "") {
+        const std::string now = clock_.next();
+        const std::string at = happens(100) ? clock_.ahead() : now;
         return {.actor = who,
-                .at = clock_.next(),
+                .at = at,
                 .request_key = chance(2) == 0 ? "key-" + std::to_string(keys_++) : "",
-                .why = why};
+                .why = why,
+                .confirmed_day = at.substr(0, 10)};
+    }
+
+    /// What a laboratory does with an original whose amendment was withdrawn.
+    void go_on_with(Archive& archive, const std::string& original) {
+        if (happens(3)) {
+            (void)archive.advance(original, "withdrawn", by("R. Reviewer", "nothing of it holds"));
+        } else if (happens(2)) {
+            amend(archive, original, archive.take_amendment_number(original, by("A. Author")).entry.certificate);
+        }
+    }
+
+    void amend(Archive& archive, const std::string& original, const std::string& number) {
+        Draft amendment = sample_draft(number, std::to_string(chance(1000)));
+        amendment.amends = Draft::Amends{
+            .number = original, .kind = chance(2) == 0 ? "amended" : "replaced", .changes = {{"U", "l", "0.1", "0.2"}}};
+        live(archive, amendment, true);
+        if (archive.life(number).state == "withdrawn") {
+            go_on_with(archive, original);
+        }
     }
 
     void live(Archive& archive, const Draft& draft, bool is_amendment = false) {
@@ -112,11 +140,7 @@ private:
             const std::string number =
                 chance(2) == 0 ? draft.number + "/A1"
                                : archive.take_amendment_number(draft.number, by("A. Author")).entry.certificate;
-            Draft amendment = sample_draft(number, std::to_string(chance(1000)));
-            amendment.amends = Draft::Amends{.number = draft.number,
-                                             .kind = chance(2) == 0 ? "amended" : "replaced",
-                                             .changes = {{"U", "l", "0.1", "0.2"}}};
-            live(archive, amendment, true);
+            amend(archive, draft.number, number);
         }
     }
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <stdexcept>
 #include <string_view>
 
@@ -14,6 +15,7 @@
 #include "app/cli/terminal/output_places.h"
 #include "app/cli/terminal/terminal.h"
 #include "evaluation/laboratory_overview.h"
+#include "text/lists.h"
 #include "text/utf8.h"
 #include "text/visible_text.h"
 
@@ -97,8 +99,8 @@ void require_options(const Action& action, const ArchiveOptions& o) {
         }
     }
     if (o.named.size() < action.least || o.named.size() > action.most) {
-        refuse_usage(command, std::to_string(o.named.size()) + " names", std::string("takes ") + action.what,
-                     "see gumcert archive --help");
+        refuse_usage(command, text::count_of(static_cast<std::int64_t>(o.named.size()), "name"),
+                     std::string("takes ") + action.what, "see gumcert archive --help");
     }
     const bool of_files = std::string_view(action.name) == "verify" && !o.named.empty();
     if (o.store.empty() != of_files) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -29,6 +30,7 @@
 #include "evaluation/read_file.h"
 #include "outputs/output_files.h"
 #include "system/whole_folders.h"
+#include "text/lists.h"
 #include "text/visible_text.h"
 
 namespace gumcert::cli {
@@ -146,6 +148,7 @@ ExitCode replay(const ArchiveOptions& options, const CommonOptions& common) {
     const std::vector<std::pair<std::string, std::string>> records = archive::records_to_replay(archive, options.named);
     const fs::path templates = templates_folder(options.share);
     const auto threads = static_cast<unsigned>(common.threads);
+    const auto watch = [&common] { return progress_within_walls(common, "a record"); };
     ProgressLine progress(!common.quiet);
     archive::Replays replays;
     const auto take = [&](const std::string& number, archive::Replay one) {
@@ -155,7 +158,7 @@ ExitCode replay(const ArchiveOptions& options, const CommonOptions& common) {
     };
     if (table) {
         const archive::WorkToShare shared = archive::work_of_replay(records, program_name());
-        archive::ArchiveWorker(archive, *table, threads, templates)
+        archive::ArchiveWorker(archive, *table, threads, templates, watch)
             .finish(shared, wait_for_others, [&](const std::string& text) { progress(text); });
         for (auto& [number, one] : archive::replays_in(*table, shared)) {
             take(number, std::move(one));
@@ -165,7 +168,8 @@ ExitCode replay(const ArchiveOptions& options, const CommonOptions& common) {
         for (std::size_t i = 0; i < records.size(); ++i) {
             const auto& [number, record] = records[i];
             progress(fmt::format("{} of {}: {}", i + 1, records.size(), text::one_line(number)));
-            take(number, archive::replay_record(archive.content(record).value_or(""), number, threads, templates));
+            take(number,
+                 archive::replay_record(archive.content(record).value_or(""), number, threads, templates, watch()));
         }
     }
     if (as_json(options)) {
@@ -200,10 +204,11 @@ ExitCode find_affected(const ArchiveOptions& options, const CommonOptions& commo
             .standard = options.source,
             .corrected = corrected,
             .reason = options.why.empty() ? "The standard " + options.source + " was corrected." : options.why,
-            .templates = templates_folder(options.share)};
+            .templates = templates_folder(options.share),
+            .watch = [&common] { return progress_within_walls(common, "a record"); }};
         if (table) {
             const archive::WorkToShare shared = archive::work_of(affected, correction, program_name());
-            archive::ArchiveWorker(archive, *table, threads, correction.templates)
+            archive::ArchiveWorker(archive, *table, threads, correction.templates, correction.watch)
                 .finish(shared, wait_for_others, tell);
             archive::take_results(affected, *table, shared);
             work = shared.work.id;
@@ -227,21 +232,22 @@ ExitCode work_for_others(const ArchiveOptions& options, const CommonOptions& com
     const auto store = opened(options, archive::Access::read_only);
     archive::Archive archive(*store);
     archive::ArchiveWorker worker(archive, *table, static_cast<unsigned>(common.threads),
-                                  templates_folder(options.share));
+                                  templates_folder(options.share),
+                                  [&common] { return progress_within_walls(common, "a record"); });
     ProgressLine progress(!common.quiet);
-    std::size_t done_tasks = 0;
+    std::int64_t done_tasks = 0;
     for (std::optional<archive::SharedWork> work = table->next(program_name()); work || options.wait;
          work = table->next(program_name())) {
         const std::size_t some = work ? worker.do_some(*work) : 0;
-        done_tasks += some;
-        progress(fmt::format("{} tasks done", done_tasks));
+        done_tasks += static_cast<std::int64_t>(some);
+        progress(text::count_of(done_tasks, "task") + " done");
         if (some == 0) {
             wait_for_others();
         }
     }
     progress.clear();
     if (!common.quiet) {
-        print_to_stdout("{} tasks done\n", done_tasks);
+        print_to_stdout("{} done\n", text::count_of(done_tasks, "task"));
     }
     return done;
 }

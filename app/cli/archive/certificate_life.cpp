@@ -12,7 +12,9 @@
 #include "app/cli/terminal/terminal.h"
 #include "archive/archive.h"
 #include "archive/certificates/archive_draft.h"
+#include "evaluation/limits.h"
 #include "signing/verify.h"
+#include "text/visible_text.h"
 
 namespace gumcert::cli {
 
@@ -29,7 +31,12 @@ ExitCode add_draft(const ArchiveOptions& options, const CommonOptions& common, b
         .now = seconds_now(),
         .progress = [&](const std::string& text) { progress(text); },
         .within_walls = [&](const auto& files,
-                            const std::function<void()>& work) { work_within_walls(common, files, work); }};
+                            const std::function<void()>& work) { work_within_walls(common, files, work); },
+        .evaluates_within =
+            [&](const std::function<void()>& work) {
+                work_within_walls(common, evaluation::walls_of_evaluation(),
+                                  "for the evaluation of " + text::one_line(options.named.front()), work);
+            }};
     if (!options.trust.empty()) {
         checks.trusted = signing::read_trust_store(options.trust);
     }

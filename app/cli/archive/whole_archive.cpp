@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -26,6 +27,7 @@
 #include "outputs/output_files.h"
 #include "system/cleanup.h"
 #include "system/new_file.h"
+#include "text/lists.h"
 #include "text/visible_text.h"
 
 namespace gumcert::cli {
@@ -176,7 +178,7 @@ ExitCode migrate(const ArchiveOptions& options, const CommonOptions& common) {
     const auto from = opened(options, archive::Access::read_only);
     const archive::Head head = archive::Archive(*from).head();
     ProgressLine progress(!common.quiet);
-    progress("copying " + std::to_string(head.size) + " entries");
+    progress("copying " + text::count_of(head.size, "entry"));
     NewArchive made(options.to);
     std::unique_ptr<archive::Store> to;
     std::string name;
@@ -188,7 +190,7 @@ ExitCode migrate(const ArchiveOptions& options, const CommonOptions& common) {
         to = archive::replay_into(*from, made.address(), archive::list_again);
         name = made.name_of(*to);
         if (under_way) {
-            under_way->is_in_the_log(fmt::format("{} entries in {}", head.size, text::one_line(name)));
+            under_way->is_in_the_log(text::count_of(head.size, "entry") + " in " + text::one_line(name));
         }
     }
     const archive::Verification verification =
@@ -216,8 +218,10 @@ ExitCode migrate(const ArchiveOptions& options, const CommonOptions& common) {
                     {"contents", verification.contents},
                     {"head", json::parse(archive::to_json(*verification.head))}});
     } else if (!common.quiet) {
-        print_to_stdout("{}: sound; {} entries, {} contents, {} certificates, as in {}\n  head {} of {}\n",
-                        text::one_line(name), verification.entries, verification.contents, verification.certificates,
+        print_to_stdout("{}: sound; {}, {}, {}, as in {}\n  head {} of {}\n", text::one_line(name),
+                        text::count_of(static_cast<std::int64_t>(verification.entries), "entry"),
+                        text::count_of(static_cast<std::int64_t>(verification.contents), "content"),
+                        text::count_of(static_cast<std::int64_t>(verification.certificates), "certificate"),
                         text::one_line(from->name()), encoding::hexadecimal(verification.head->root),
                         verification.head->at);
     }

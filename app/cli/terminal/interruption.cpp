@@ -148,22 +148,24 @@ void wait_for_signal(int descriptor, bool json_messages) {
     end_by(signal);
 }
 
-gum::Diagnostic reached(system::Ceiling which, const CommonOptions& common) {
+constexpr const char* k_command = "of this command";
+
+/// \param whose  "of this command"
+gum::Diagnostic reached(system::Ceiling which, const CommonOptions& common, const std::string& whose) {
     const bool memory = which == system::Ceiling::memory;
     return {.code = "GC-STORE-0024",
             .where = memory ? "--memory-limit" : "--time-limit",
-            .what = memory
-                        ? fmt::format("the memory of this command, {} MB, is used up", *common.memory_limit / 1'000'000)
-                        : fmt::format("the time of this command, {} s, is used up", *common.time_limit),
+            .what = memory ? fmt::format("the memory {}, {} MB, is used up", whose, *common.memory_limit / 1'000'000)
+                           : fmt::format("the time {}, {} s, is used up", whose, *common.time_limit),
             .rule = "a command keeps its limits, and leaves nothing behind where it cannot",
             .action = memory ? "give it more by --memory-limit, or split the work; 0 is no limit"
                              : "give it more by --time-limit, or split the work; 0 is no limit"};
 }
 
-[[noreturn]] void end_at_ceiling(system::Ceiling which, const CommonOptions& common) {
+[[noreturn]] void end_at_ceiling(system::Ceiling which, const CommonOptions& common, const std::string& whose) {
     constexpr std::chrono::seconds k_patience{20};  // for a set of files that is being put in place
     const system::CleanupLock lock = system::clean_up(k_patience);
-    const gum::Diagnostic why = reached(which, common);
+    const gum::Diagnostic why = reached(which, common, whose);
     print_message(why, common);
     log_refusal(why, common);
     std::_Exit(storage_trouble);
@@ -234,16 +236,41 @@ CommonOptions with_walls(CommonOptions common, const std::vector<std::filesystem
 void keep_ceilings(const CommonOptions& common) {
     const system::Ceilings ceilings{.memory = common.memory_limit.value_or(0),
                                     .time = std::chrono::seconds(common.time_limit.value_or(0))};
-    system::watch_ceilings(ceilings, [common](system::Ceiling which) { end_at_ceiling(which, common); });
+    system::watch_ceilings(ceilings, [common](system::Ceiling which) { end_at_ceiling(which, common, k_command); });
+}
+
+void work_within_walls(const CommonOptions& common, const evaluation::Walls& walls, const std::string& whose,
+                       const std::function<void()>& work) {
+    const system::Ceilings ceilings{.memory = common.memory_limit ? 0 : walls.memory,
+                                    .time = std::chrono::seconds(common.time_limit ? 0 : walls.time)};
+    CommonOptions told = common;
+    told.memory_limit = walls.memory;
+    told.time_limit = walls.time;
+    const system::CeilingsOfWork watch(ceilings,
+                                       [told, whose](system::Ceiling which) { end_at_ceiling(which, told, whose); });
+    work();
 }
 
 void work_within_walls(const CommonOptions& common, const std::vector<std::filesystem::path>& files,
                        const std::function<void()>& work) {
-    const CommonOptions walls = with_walls(common, files);
-    const system::Ceilings ceilings{.memory = common.memory_limit ? 0 : walls.memory_limit.value_or(0),
-                                    .time = std::chrono::seconds(common.time_limit ? 0 : walls.time_limit.value_or(0))};
-    const system::CeilingsOfWork watch(ceilings, [walls](system::Ceiling which) { end_at_ceiling(which, walls); });
-    work();
+    work_within_walls(common, evaluation::walls_of(files), k_command, work);
+}
+
+gum::Progress progress_within_walls(const CommonOptions& common, const std::string& record, gum::Progress progress) {
+    if (common.time_limit) {
+        return progress;
+    }
+    CommonOptions told = common;
+    told.time_limit = evaluation::walls_of_evaluation().time;
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(*told.time_limit);
+    return [told, end, record, progress = std::move(progress)](const std::string& text) {
+        if (std::chrono::steady_clock::now() > end) {
+            throw gum::StorageError(reached(system::Ceiling::time, told, "for the evaluation of " + record));
+        }
+        if (progress) {
+            progress(text);
+        }
+    };
 }
 
 void tell_stage(const std::string& text) {

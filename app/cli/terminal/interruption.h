@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "app/cli/terminal/terminal.h"
+#include "evaluation/limits.h"
+#include "gum/quantity/progress.h"
 
 namespace gumcert::cli {
 
@@ -26,6 +28,16 @@ void keep_ceilings(const CommonOptions& common);
 /// none.
 void work_within_walls(const CommonOptions& common, const std::vector<std::filesystem::path>& files,
                        const std::function<void()>& work);
+/// \param whose  for the message: "for the evaluation of record.json"
+void work_within_walls(const CommonOptions& common, const evaluation::Walls& walls, const std::string& whose,
+                       const std::function<void()>& work);
+
+/// The same of the time of one evaluation among many, evaluation::walls_of_evaluation(), from now on: told as progress, so that
+/// it ends alone. What does not tell of its progress goes on.
+/// \param record  for the message: "old.json"
+/// \return throws gum::StorageError, GC-STORE-0024, where its time is used up
+[[nodiscard]] gum::Progress progress_within_walls(const CommonOptions& common, const std::string& record,
+                                                  gum::Progress progress = {});
 
 /// What the program is doing, for the words of an interruption.
 void tell_stage(const std::string& text);

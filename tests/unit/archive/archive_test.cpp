@@ -10,6 +10,7 @@
 #include <set>
 #include <tuple>
 
+#include "archive/evidence.h"
 #include "archive/store/open_store.h"
 #include "archive/verification.h"
 #include "encoding/sha2.h"
@@ -161,7 +162,7 @@ TYPED_TEST(ArchiveLaws, TellsPersonsAndNumbersApart) {
 }
 
 /// An entry with a time in the future stops the archive until then: a person confirms the day.
-TYPED_TEST(ArchiveLaws, AsksForTheDayAfterAYear) {
+TYPED_TEST(ArchiveLaws, AsksForTheDayAfterAWeekAndInANewYear) {
     const std::string last = this->archive_->take_number(this->by("A. Author")).entry.at;
     ASSERT_EQ(last.substr(0, 10), "2026-01-01");
     const auto taken = [&](const std::string& at, const std::string& day) {
@@ -170,12 +171,89 @@ TYPED_TEST(ArchiveLaws, AsksForTheDayAfterAYear) {
         request.confirmed_day = day;
         return code_of([&] { (void)this->archive_->take_number(request); });
     };
-    EXPECT_EQ(taken("2027-01-03T00:00:00Z", ""), "GC-ARCHIVE-0065");
+    EXPECT_EQ(taken("2026-01-09T00:00:00Z", ""), "GC-ARCHIVE-0065");
     EXPECT_EQ(taken("2036-01-01T00:00:00Z", ""), "GC-ARCHIVE-0065");
     EXPECT_EQ(taken("2036-01-01T00:00:00Z", "2026-01-01"), "GC-ARCHIVE-0065");
-    EXPECT_EQ(taken("2027-01-02T23:59:59Z", ""), "");
+    EXPECT_EQ(taken("2026-01-08T23:59:59Z", ""), "");
+    EXPECT_EQ(taken("2026-12-30T23:00:00Z", "2026-12-31"), "") << "the day of another place";
+    EXPECT_EQ(taken("2027-01-02T00:00:00Z", ""), "GC-ARCHIVE-0065") << "numbers of another year";
+    Request settled = this->by("K. Keeper");
+    settled.at = "2027-01-02T00:00:00Z";
+    EXPECT_NO_THROW((void)this->archive_->change_settings(this->archive_->settings(), settled)) << "it has no year";
+    EXPECT_EQ(taken("2027-12-31T23:59:59Z", "2027-12-31"), "");
+    EXPECT_EQ(taken("2028-01-01T00:00:01Z", ""), "") << "who works at night";
     EXPECT_EQ(taken("2028-03-01T00:00:00Z", "2028-03-01"), "");
     EXPECT_EQ(taken("2028-03-01T00:00:01Z", ""), "");
+}
+
+/// A clock was ahead over New Year, and is right now: nothing is lost, nothing waits, and every entry says what it knew.
+TYPED_TEST(ArchiveLaws, GoesOnAfterAClockThatWasAhead) {
+    const auto at = [&](const std::string& who, const std::string& when, const std::string& day = "") {
+        Request request = this->by(who, "because");
+        request.at = when;
+        request.confirmed_day = day;
+        return request;
+    };
+    const std::string number = this->issued();
+    const std::string wrong = "2027-01-10T12:00:00Z";
+    EXPECT_EQ(this->archive_->take_number(at("A. Author", wrong, "2027-01-10")).entry.certificate, "EX-2027-001");
+    const std::string now = "2026-01-02T08:00:00Z";
+    EXPECT_EQ(code_of([&] { (void)this->archive_->take_number(at("A. Author", now)); }), "GC-ARCHIVE-0032");
+    EXPECT_EQ(code_of([&] { (void)this->archive_->take_number(at("A. Author", now, "2027-01-10")); }),
+              "GC-ARCHIVE-0032")
+        << "the day of the wrong clock";
+    const LogEntry next = this->archive_->take_number(at("A. Author", now, "2026-01-02")).entry;
+    EXPECT_EQ(next.certificate, "EX-2026-002") << "of the year that it is";
+    EXPECT_EQ(next.at, wrong);
+    EXPECT_EQ(nlohmann::json::parse(next.body)["clock"], now);
+    (void)this->archive_->advance("EX-2027-001", "withdrawn", at("R. Reviewer", now, "2026-01-02"));
+    Draft amendment = sample_draft(
+        this->archive_->take_amendment_number(number, at("A. Author", now, "2026-01-02")).entry.certificate, "2");
+    amendment.amends = Draft::Amends{number, "replaced", {{"U", "l", "0.1", "0.2"}}};
+    (void)this->archive_->draft(amendment, at("A. Author", now, "2026-01-02"));
+    for (const char* const kind : {"reviewed", "authorised", "issued"}) {
+        (void)this->archive_->advance(amendment.number, kind, at("R. Reviewer", now, "2026-01-02"));
+    }
+    EXPECT_EQ(this->archive_->life(number).state, "superseded");
+    (void)this->archive_->change_settings(this->archive_->settings(), at("K. Keeper", now, "2026-01-02"));
+    EXPECT_EQ(this->archive_->take_number(at("A. Author", "2027-01-11T08:00:00Z")).entry.certificate, "EX-2027-002");
+    const Verification verification = verify_store(*this->store_);
+    EXPECT_TRUE(verification.sound()) << verification.findings.front().what;
+    EXPECT_EQ(verification.head->size, this->archive_->head().size);
+    for (const std::string& one : {number, amendment.number}) {
+        EXPECT_TRUE(verify_evidence(evidence_of(*this->store_, one, std::nullopt), {}, {}).findings.empty()) << one;
+    }
+}
+
+/// An amendment was wrong itself, and is taken back: the next one takes its place, or the original is withdrawn as well.
+TYPED_TEST(ArchiveLaws, AmendsAnOriginalWhoseAmendmentWasWithdrawn) {
+    const std::string number = this->issued();
+    const auto amend = [&] {
+        Draft draft =
+            sample_draft(this->archive_->take_amendment_number(number, this->by("A. Author")).entry.certificate, "2");
+        draft.amends = Draft::Amends{number, "amended", {{"U", "l", "0.1", "0.2"}}};
+        (void)this->archive_->draft(draft, this->by("A. Author", "U was too small"));
+        this->lead_to_issue(draft.number);
+        return draft.number;
+    };
+    const auto withdraw = [&](const std::string& one) {
+        return code_of(
+            [&] { (void)this->archive_->advance(one, "withdrawn", this->by("R. Reviewer", "of another item")); });
+    };
+    EXPECT_EQ(amend(), number + "/A1");
+    EXPECT_EQ(withdraw(number), "GC-ARCHIVE-0021") << "its amendment holds";
+    EXPECT_EQ(withdraw(number + "/A1"), "");
+    EXPECT_EQ(amend(), number + "/A2");
+    EXPECT_EQ(this->archive_->life(number).later, number + "/A2");
+    EXPECT_EQ(withdraw(number + "/A2"), "");
+    EXPECT_EQ(withdraw(number), "");
+    EXPECT_EQ(code_of([&] { (void)amend(); }), "GC-ARCHIVE-0031");
+    const Verification verification = verify_store(*this->store_);
+    EXPECT_TRUE(verification.sound()) << verification.findings.front().what;
+    for (const char* const one : {"", "/A1", "/A2"}) {
+        const Evidence evidence = evidence_of(*this->store_, number + one, std::nullopt);
+        EXPECT_TRUE(verify_evidence(evidence, {}, {}).findings.empty()) << one;
+    }
 }
 
 /// Every request that writes, once with a key and once more with each of its parts changed.
@@ -503,9 +581,11 @@ TYPED_TEST(ArchiveLaws, TakesAClockThatIsLessThanAMinuteBehind) {
                                                  {"2027-01-01T00:00:20Z", "2026-12-31T23:59:20Z", false},
                                                  {"2027-01-01T00:30:20Z", "2027-01-01T00:29:50Z", true}}) {
         request.at = last;
+        request.confirmed_day = std::string(last).substr(0, 10);
         const std::string first = this->archive_->take_number(request).entry.at;
         EXPECT_EQ(first, last);
         request.at = behind;
+        request.confirmed_day = "";
         if (is_taken) {
             EXPECT_EQ(this->archive_->take_number(request).entry.at, last);
         } else {

@@ -162,8 +162,11 @@ TEST_F(EvidenceOfCertificates, HasAStatementOfTheSameStates) {
 TEST_F(EvidenceOfCertificates, ProvesThatItExtendsOtherHeads) {
     Archive archive(*store_);
     const Head early = archive.head();
-    (void)archive.change_settings({},
-                                  {.actor = "K. Keeper", .at = "2026-06-01T00:00:00Z", .request_key = "", .why = "x"});
+    (void)archive.change_settings({}, {.actor = "K. Keeper",
+                                       .at = "2026-06-01T00:00:00Z",
+                                       .request_key = "",
+                                       .why = "x",
+                                       .confirmed_day = "2026-06-01"});
     const Evidence plain = evidence_of(*store_, drafted());
     EXPECT_EQ(verify_evidence(plain, {early}).findings.front().code, "GC-ARCHIVE-0051");
     const Evidence since = evidence_from_json(to_json(evidence_of(*store_, drafted(), early)), "evidence.json");

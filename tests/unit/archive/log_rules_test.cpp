@@ -176,8 +176,7 @@ TEST(CertificateNumbers, FollowWithoutGaps) {
 TEST(Amendments, EndTheirOriginal) {
     ToldLog log;
     log.issue("C");
-    EXPECT_EQ(log.draft("C/A1", log.amends("D")),
-              "an amendment amends or replaces a certificate that is issued and holds");
+    EXPECT_EQ(log.draft("C/A1", log.amends("D")), k_amendable_rule);
     EXPECT_EQ(log.draft("C/A1", log.amends("C")), "");
     EXPECT_EQ(log.step("C", "amended-by", "R. Reviewer", {{"by", "C/A1"}}),
               "an original is amended or superseded when its amendment is issued");
@@ -192,8 +191,74 @@ TEST(Amendments, EndTheirOriginal) {
     EXPECT_EQ(log.rules.due(), "");
     EXPECT_EQ(log.rules.life("C")->later, "C/A1");
     EXPECT_EQ(log.rules.life("C/A1")->amends, "C");
-    EXPECT_EQ(log.draft("C/A2", log.amends("C")),
-              "an amendment amends or replaces a certificate that is issued and holds");
+    EXPECT_EQ(log.draft("C/A2", log.amends("C")), k_amendable_rule);
+}
+
+/// Where the amendment was withdrawn, neither of the two holds: the original is amended anew, or withdrawn too.
+TEST(Amendments, OfWhichOneWasWithdrawnLeaveTheirOriginalOpen) {
+    for (const char* const kind : {"amended", "replaced"}) {
+        const std::string ended = kind == std::string("amended") ? "amended-by" : "superseded";
+        ToldLog log;
+        const auto amend = [&](const std::string& original, const std::string& number) {
+            EXPECT_EQ(log.draft(number, log.amends(original, kind)), "");
+            for (const char* const step : {"reviewed", "authorised", "issued"}) {
+                EXPECT_EQ(log.step(number, step), "");
+            }
+            EXPECT_EQ(log.step(original, ended, "R. Reviewer", {{"by", number}}), "");
+        };
+        log.issue("C");
+        amend("C", "C/A1");
+        EXPECT_FALSE(log.rules.may_be_amended("C"));
+        EXPECT_EQ(log.step("C", "withdrawn"), k_life_rule) << "its amendment holds";
+        EXPECT_EQ(log.draft("C/A2", log.amends("C")), k_amendable_rule);
+        EXPECT_EQ(log.step("C/A1", "withdrawn"), "");
+        EXPECT_TRUE(log.rules.may_be_amended("C"));
+        EXPECT_FALSE(log.rules.may_be_amended("C/A1"));
+        EXPECT_EQ(log.draft("C/A2", log.amends("C/A1")), k_amendable_rule);
+        EXPECT_EQ(log.step("C", ended, "R. Reviewer", {{"by", "C/A1"}}),
+                  "an original is amended or superseded when its amendment is issued");
+        EXPECT_EQ(log.draft("C/A3", log.amends("C", kind)), "");
+        EXPECT_EQ(log.step("C/A3", "reviewed"), "");
+        EXPECT_EQ(log.step("C/A3", "authorised"), "");
+        amend("C", "C/A2");
+        EXPECT_EQ(log.rules.life("C")->later, "C/A2");
+        EXPECT_EQ(log.step("C/A3", "issued"), k_amendable_rule) << "C/A2 has taken the place";
+        amend("C/A2", "C/A2/A1");
+        EXPECT_EQ(log.step("C/A2/A1", "withdrawn"), "");
+        EXPECT_FALSE(log.rules.may_be_amended("C")) << "C/A2 is open, and C is not";
+        EXPECT_EQ(log.step("C/A2", "withdrawn"), "");
+        EXPECT_EQ(log.step("C", "withdrawn"), "");
+        EXPECT_EQ(log.draft("C/A4", log.amends("C")), k_amendable_rule);
+    }
+}
+
+/// After a clock that was ahead entries have the time of the last one, and say what their own clock said.
+TEST(EntriesAfterAWrongClock, HaveTheTimeOfTheEntryBefore) {
+    ToldLog log(Settings{.four_eyes = true, .numbering = "EX-YYYY-##"});
+    const auto take = [&](const std::string& number, int ordinal, const std::string& series, const json& clock) {
+        json body{{"old", {{"state", ""}}}, {"new", {{"state", "numbered"}, {"ordinal", ordinal}, {"series", series}}}};
+        body["clock"] = clock;
+        return log.tell("numbered", number, body);
+    };
+    const char* const form = "an entry after a clock that was ahead states the time of its own clock";
+    const char* const order = "an entry after a clock that was ahead has the time of the entry before";
+    log.at = "2027-01-10T12:00:00Z";
+    EXPECT_EQ(take("EX-2027-01", 1, "EX-2027-##", json()), "") << "by the wrong clock";
+    for (const json& clock :
+         {json(1), json("2026-11-29"), json("2027-01-10T12:00:00Z"), json("2027-02-01T00:00:00Z")}) {
+        EXPECT_EQ(take("EX-2026-01", 1, "EX-2026-##", clock), form) << clock;
+    }
+    EXPECT_EQ(take("EX-2027-02", 2, "EX-2027-##", "2026-11-29T20:00:00Z"),
+              "certificate numbers follow each other without gaps")
+        << "the year is that of its clock";
+    log.at = "2027-01-10T12:00:01Z";
+    EXPECT_EQ(take("EX-2026-01", 1, "EX-2026-##", "2026-11-29T20:00:00Z"), order);
+    log.at = "2027-01-10T12:00:00Z";
+    EXPECT_EQ(take("EX-2026-01", 1, "EX-2026-##", "2026-11-29T20:00:00Z"), "");
+    log.at = "2027-01-11T08:00:00Z";
+    EXPECT_EQ(take("EX-2027-02", 2, "EX-2027-##", json()), "") << "its time has come";
+    log.rules.go_on_after("2027-01-12T08:00:00Z");
+    EXPECT_EQ(take("EX-2027-03", 3, "EX-2027-##", json()), "no entry is earlier than the one before");
 }
 
 /// A number that was taken for an amendment of one certificate is that of no other one, and of no ordinary certificate.

@@ -40,6 +40,9 @@ TEST(Limits, AreThoseThatRefuse) {
     EXPECT_TRUE(values.contains("a file 64 MiB"));
     EXPECT_TRUE(values.contains("time for a document 60 s"));
     EXPECT_TRUE(values.contains("a file 20 000 000 bytes"));
+    EXPECT_TRUE(values.contains("time, unless --time-limit says otherwise 600 s"));
+    EXPECT_EQ(walls_of_evaluation().time, 600U);
+    EXPECT_EQ(walls_of_evaluation().memory, std::uint64_t{4} << 30U);
 }
 
 TEST(Limits, StandInLinesByWhatTheyApplyTo) {

@@ -102,6 +102,23 @@ TEST(RerunRecord, WhatTheNewVersionSaysInAdditionIsNoChangeAndWhatItLeavesOutIsO
     EXPECT_EQ(left_out.changes[0].place, "/results/l/budget");
 }
 
+/// It is no fault of the record, as a job that cannot be evaluated is.
+TEST(RerunRecord, IsEndedByItsProgress) {
+    const std::string record =
+        reports::to_canonical_json(evaluate_job(k_rerun_tree / "examples" / "gauge_block" / "job.json",
+                                                CovarianceFile::none, 1, k_rerun_tree / "templates")
+                                       .record);
+    try {
+        (void)rerun_record(record, "old.json", 1, k_rerun_tree / "templates", [](const std::string&) {
+            throw gum::StorageError(gum::Diagnostic{
+                .code = "GC-STORE-0024", .where = "--time-limit", .what = "used up", .rule = "", .action = ""});
+        });
+        ADD_FAILURE() << "not ended";
+    } catch (const gum::StorageError& error) {
+        EXPECT_EQ(error.diagnostics().front().where, "--time-limit");
+    }
+}
+
 TEST(RerunRecord, SaysWhyItCannotBeEvaluated) {
     json record = json::parse(certified());
     record["job"]["files"][0]["content"] = nullptr;

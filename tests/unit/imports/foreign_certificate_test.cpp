@@ -152,6 +152,14 @@ TEST(ForeignCertificate, UncertaintiesThatCannotBeUsed) {
     }
 }
 
+TEST(ForeignCertificate, OfTwoSignsNoneIsLeftOut) {
+    for (const char* const U : {"+-0.02", "++0.02"}) {
+        const std::string text = certificate(expanded(U, "2"));
+        EXPECT_GT(errors_and_warnings(check_certificate(text, "a.xml", trust())).size(), 1U) << U;
+        EXPECT_THAT(import_certificate(text, "a.xml", trust()).job, testing::Not(HasSubstr("0.02"))) << U;
+    }
+}
+
 TEST(ForeignCertificate, SignaturesAreToldForWhatTheyAreWorth) {
     const Laboratory laboratory(ec_key());
     const std::string good =

@@ -27,7 +27,9 @@ TEST(CsvField, NumbersStayNumbers) {
     for (const char* number : {"-0.5", "+3", "1e-05", "-1"}) {
         EXPECT_EQ(csv_field(number), number);
     }
-    EXPECT_EQ(csv_field("-a"), "'-a");
+    for (const char* text : {"-a", "+-5", "++5", "-+5", "+"}) {
+        EXPECT_EQ(csv_field(text), std::string_view(text) == "+" ? "+" : "'" + std::string(text)) << text;
+    }
 }
 
 TEST(CsvField, QuotedIsTheSameInQuotes) {

@@ -28,6 +28,9 @@ TEST(Lists, NounsFollowTheirCount) {
     EXPECT_EQ(count_of(0, "point"), "0 points");
     EXPECT_EQ(count_of(1, "point"), "1 point");
     EXPECT_EQ(count_of(12, "point"), "12 points");
+    EXPECT_EQ(count_of(0, "entry"), "0 entries");
+    EXPECT_EQ(count_of(1, "entry"), "1 entry");
+    EXPECT_EQ(count_of(2, "day"), "2 days");
 }
 
 }  // namespace

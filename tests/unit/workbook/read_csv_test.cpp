@@ -37,8 +37,8 @@ TEST(ReadCsv, KeepsTheDigitsOfNumbers) {
 }
 
 TEST(ReadCsv, LeavesTextAsItIs) {
-    EXPECT_EQ(cells_of_csv("800.0.2,=A1+1,5%,inf,nan,0x10,1 000"),
-              "A1=800.0.2 B1==A1+1 C1=5% D1=inf E1=nan F1=0x10 G1=1 000");
+    EXPECT_EQ(cells_of_csv("800.0.2,=A1+1,5%,inf,nan,0x10,1 000,+-5,++5,-+5"),
+              "A1=800.0.2 B1==A1+1 C1=5% D1=inf E1=nan F1=0x10 G1=1 000 H1=+-5 I1=++5 J1=-+5");
 }
 
 TEST(ReadCsv, FindsTheSeparator) {

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -37,7 +38,7 @@ TEST(ArchiveDraft, PrintedDaysAreThoseOfThePlace) {
 }
 
 /// Files of others are read within walls, all of them counting; how long the evaluation between takes is said by its job.
-TEST(ArchiveDraft, ReadsFilesWithinWallsAndEvaluatesOutsideOfThem) {
+TEST(ArchiveDraft, ReadsFilesAndEvaluatesWithinWallsOfEach) {
     const test::StoreFolder folder;
     const std::filesystem::path tree(GUMCERT_SOURCE_DIR);
     const std::filesystem::path record = folder.file("record");
@@ -50,26 +51,40 @@ TEST(ArchiveDraft, ReadsFilesWithinWallsAndEvaluatesOutsideOfThem) {
     assets.templates = tree / "templates";
     std::ofstream(page, std::ios::binary) << reports::render_html(evaluation.record, assets);
     std::vector<std::string> said;
-    bool is_within = false;
+    std::string within = "outside";
     ArchiveChecks checks{.threads = 1, .templates = tree / "templates", .trusted = {}, .now = 0, .progress = {}};
-    checks.progress = [&](const std::string& text) {
-        said.push_back(text + (is_within ? ", within walls" : ", outside"));
-    };
+    checks.progress = [&](const std::string& text) { said.push_back(text + ", " + within); };
     checks.within_walls = [&](const std::vector<std::filesystem::path>& files, const std::function<void()>& work) {
         said.push_back(std::to_string(files.size()) + " files");
         EXPECT_NE(std::find(files.begin(), files.end(), record), files.end());
         EXPECT_NE(std::find(files.begin(), files.end(), page), files.end());
-        is_within = true;
+        within = "within walls";
         work();
-        is_within = false;
+        within = "outside";
+    };
+    checks.evaluates_within = [&](const std::function<void()>& work) {
+        said.emplace_back("evaluation");
+        within = "within walls of an evaluation";
+        work();
+        within = "outside";
     };
     EXPECT_EQ(checked_draft(record, {page}, checks).draft.documents.size(), 1U);
     ASSERT_GE(said.size(), 3U);
     EXPECT_EQ(said[0], "2 files");
     EXPECT_EQ(said[said.size() - 2], "2 files");
     EXPECT_EQ(said.back(), "checking " + page.filename().string() + ", within walls");
-    EXPECT_TRUE(
-        std::all_of(said.begin() + 1, said.end() - 2, [](const auto& one) { return one.ends_with("outside"); }));
+    EXPECT_EQ(said[1], "evaluation");
+    EXPECT_TRUE(std::all_of(said.begin() + 2, said.end() - 2,
+                            [](const auto& one) { return one.ends_with("within walls of an evaluation"); }));
+    // The walls end the process; here the work is left out, and nothing is evaluated elsewhere.
+    std::ofstream(record, std::ios::binary) << reports::with_digest([&] {
+        nlohmann::json other = nlohmann::json::parse(reports::to_canonical_json(evaluation.record));
+        other["title"] = "another title than that of its job";
+        return other;
+    }());
+    EXPECT_THROW((void)checked_draft(record, {}, checks), gum::InputError);
+    checks.evaluates_within = [](const std::function<void()>&) {};
+    EXPECT_NO_THROW((void)checked_draft(record, {}, checks));
 }
 
 }  // namespace

@@ -62,7 +62,7 @@ TEST(ArchiveFiles, AnArchiveIsHeldAgainstTheHeadsThatSomebodyHas) {
         create_store(folder.file().string(), first_entry({.four_eyes = false, .numbering = ""}, "gumcert", "1", by));
     const VerifiedFile said = verified_store(*store, TrustedHeads({}, "", "2026-01-01T00:00:00Z"));
     EXPECT_TRUE(said.sound());
-    EXPECT_NE(said.text.find(": sound; 1 entries, 0 contents, 0 certificates, 0 earlier heads\n  head "),
+    EXPECT_NE(said.text.find(": sound; 1 entry, 0 contents, 0 certificates, 0 earlier heads\n  head "),
               std::string::npos)
         << said.text;
     EXPECT_NE(said.text.find("Without --head nobody can see"), std::string::npos);

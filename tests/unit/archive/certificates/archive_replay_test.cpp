@@ -70,6 +70,22 @@ TEST(ArchiveReplay, TellsWhatIsPrintedBeforeTheAudit) {
     EXPECT_FALSE(is_of_audit(found.front()));
 }
 
+/// One record among many takes no longer than it may, and is named.
+TEST(ArchiveReplay, OfARecordThatTakesTooLongIsNotDone) {
+    const std::string record = reports::to_canonical_json(
+        evaluation::evaluate_job(k_tree_of_replays / "examples" / "gauge_block" / "job.json",
+                                 evaluation::CovarianceFile::none, 1, k_tree_of_replays / "templates")
+            .record);
+    const Replay replay = replay_record(record, "EX-1", 1, k_tree_of_replays / "templates", [](const std::string&) {
+        throw gum::StorageError(gum::Diagnostic{
+            .code = "GC-STORE-0024", .where = "--time-limit", .what = "used up", .rule = "", .action = ""});
+    });
+    EXPECT_FALSE(replay.evaluated);
+    ASSERT_EQ(replay.differences.size(), 1U);
+    EXPECT_EQ(replay.differences[0].code, "GC-ARCHIVE-0061");
+    EXPECT_EQ(replay.differences[0].what, "--time-limit: used up");
+}
+
 TEST(ArchiveReplay, TellsOnlySoManyPlaces) {
     json record = archived_record();
     for (std::size_t i = 0; i <= k_most_differences; ++i) {

@@ -20,7 +20,8 @@ TEST(PrintedNumber, StandsForHalfAUnitOfItsLastDigit) {
 }
 
 TEST(PrintedNumber, IsNoOtherText) {
-    for (const char* const text : {"", "+", "ten", "1.2.3", "1,5", " 1", "1 ", "nan", "inf", "1e999", "5 mm"}) {
+    for (const char* const text :
+         {"", "+", "ten", "1.2.3", "1,5", " 1", "1 ", "nan", "inf", "1e999", "5 mm", "+-5", "++5", "-+5"}) {
         EXPECT_FALSE(printed_number(text)) << text;
     }
 }
