@@ -396,7 +396,8 @@ void LogRules::apply(const LogEntry& entry, const json& body) {
     if (entry.kind == "authorised") {
         life.authorised_by = entry.actor;
     } else if (entry.kind == "issued") {
-        life.issued_at = entry.at;
+        const std::string clock = text_of(body, k_clock);
+        life.issued_at = clock.empty() ? entry.at : clock;
     }
     due_kind_.clear();
     due_certificate_.clear();

@@ -22,7 +22,7 @@ struct CertificateLife {
     std::vector<std::string> documents;  ///< SHA-256 of those that hold
     std::set<std::string> authors;       ///< of all its drafts
     std::string authorised_by;           ///< who authorised the draft that holds; "" before
-    std::string issued_at;               ///< time of its issue; "" before
+    std::string issued_at;               ///< time of its issue, by its own clock; "" before
     std::string number_amends;           ///< original for which the number was taken; "" else
     std::string amends;                  ///< number of the certificate that it amends or replaces; "" else
     std::string amendment_kind;          ///< "amended" or "replaced"; "" else

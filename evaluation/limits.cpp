@@ -57,8 +57,9 @@ Walls walls_of(const std::vector<std::filesystem::path>& files) {
             .time = std::max<std::uint64_t>(steps, 1) * k_wall_time};
 }
 
-Walls walls_of_evaluation() {
-    return {.memory = k_evaluation_memory, .time = k_evaluation_time};
+Walls walls_of_evaluation(const std::vector<std::filesystem::path>& records) {
+    const Walls reading = walls_of(records);
+    return {.memory = std::max(k_evaluation_memory, reading.memory), .time = std::max(k_evaluation_time, reading.time)};
 }
 
 std::string Limit::value() const {
@@ -94,7 +95,7 @@ std::vector<Limit> limits() {
         "others, for every 10 MB of a file";
     constexpr std::string_view k_evaluation =
         "the evaluation of the job in a record: archive add and amend, check and rerun; the time also archive replay, "
-        "affected and worker";
+        "affected and worker; archive add and amend, check and rerun at least what is given for reading the record";
     return {
         {k_job, "a file", jobs::k_file_limit, k_byte},
         {k_job, "logo or symbol", jobs::k_largest_picture, k_byte},

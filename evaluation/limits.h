@@ -16,8 +16,9 @@ struct Walls {
 /// For every 10 MB begun of a file 1 GiB, the largest of them counting, and 256 KiB for each of them; and 30 s, all of them
 /// together. A file that cannot be looked at counts as a small one.
 [[nodiscard]] Walls walls_of(const std::vector<std::filesystem::path>& files);
-/// For the evaluation of a job that a record of others holds: wide, for sound jobs may take minutes, and an end all the same.
-[[nodiscard]] Walls walls_of_evaluation();
+/// For the evaluation of a job that a record of others holds: wide, for sound jobs may take minutes, and an end all the same. A
+/// large record has many results, and may take at least what reading it may.
+[[nodiscard]] Walls walls_of_evaluation(const std::vector<std::filesystem::path>& records = {});
 
 /// Something that is refused, or ended, beyond a size.
 struct Limit {

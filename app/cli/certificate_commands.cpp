@@ -122,7 +122,7 @@ ExitCode check_files(const std::vector<std::string>& files, bool certificates, c
                     return evaluation::check_file(
                         file, static_cast<unsigned>(common.threads), templates_folder(share),
                         progress_within_walls(common, text::one_line(file),
-                                              [&](const std::string& text) { progress(text); }),
+                                              [&](const std::string& text) { progress(text); }, {file}),
                         laboratory);
                 });
             }

@@ -81,7 +81,9 @@ CommonOptions with_walls_of_command(const Arguments& a) {
     if (a.command == "rerun" ||
         (a.command == "check" && !reads_certificates)) {  // records, each with a time of its own
         CommonOptions common = a.common;
-        common.memory_limit = common.memory_limit.value_or(evaluation::walls_of_evaluation().memory);
+        const std::vector<std::string>& read = a.command == "rerun" ? a.records : a.files;
+        common.memory_limit =
+            common.memory_limit.value_or(evaluation::walls_of_evaluation({read.begin(), read.end()}).memory);
         return common;
     }
     return a.command == "verify" || reads_certificates ? with_walls(a.common, {a.files.begin(), a.files.end()})

@@ -22,7 +22,7 @@ ExitCode rerun_records(const std::vector<std::string>& records, const std::strin
             all.push_back(evaluation::rerun_record(
                 evaluation::read_file(name), name, static_cast<unsigned>(common.threads), templates,
                 progress_within_walls(common, text::one_line(name),
-                                      [&](const std::string& text) { progress(name + ": " + text); })));
+                                      [&](const std::string& text) { progress(name + ": " + text); }, {name})));
             return all.back().is_negative() ? negative_answer : done;
         });
         code = std::max(code, one);

@@ -263,10 +263,19 @@ bool goes_on(char32_t code, char32_t edge) {
            (beside == Letters::other && !(is_without_blanks(code) && is_without_blanks(edge)));
 }
 
+/// Points of Hebrew and Arabic, which are written or not: the word is the same one.
+bool is_point_of_a_letter(char32_t code) {
+    return (code >= 0x0591 && code <= 0x05BD) || (code >= 0x064B && code <= 0x0652);
+}
+
 /// Whether a name ends at a place of a text: what follows is no part of it. "STD-017." ends a sentence.
 bool ends_at(std::string_view text, std::size_t at) {
     const char32_t edge = character_before(text, at).code;
-    const Neighbour next = character_at(text, at);
+    Neighbour next = character_at(text, at);
+    while (is_point_of_a_letter(next.code)) {
+        at += next.bytes;
+        next = character_at(text, at);
+    }
     if (gum::character_class(next.code) == gum::CharacterClass::combining_mark) {
         return false;  // it makes another letter of the last one
     }

@@ -34,7 +34,7 @@ ExitCode add_draft(const ArchiveOptions& options, const CommonOptions& common, b
                             const std::function<void()>& work) { work_within_walls(common, files, work); },
         .evaluates_within =
             [&](const std::function<void()>& work) {
-                work_within_walls(common, evaluation::walls_of_evaluation(),
+                work_within_walls(common, evaluation::walls_of_evaluation({options.named.front()}),
                                   "for the evaluation of " + text::one_line(options.named.front()), work);
             }};
     if (!options.trust.empty()) {

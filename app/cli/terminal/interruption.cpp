@@ -256,12 +256,13 @@ void work_within_walls(const CommonOptions& common, const std::vector<std::files
     work_within_walls(common, evaluation::walls_of(files), k_command, work);
 }
 
-gum::Progress progress_within_walls(const CommonOptions& common, const std::string& record, gum::Progress progress) {
+gum::Progress progress_within_walls(const CommonOptions& common, const std::string& record, gum::Progress progress,
+                                    const std::vector<std::filesystem::path>& files) {
     if (common.time_limit) {
         return progress;
     }
     CommonOptions told = common;
-    told.time_limit = evaluation::walls_of_evaluation().time;
+    told.time_limit = evaluation::walls_of_evaluation(files).time;
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(*told.time_limit);
     return [told, end, record, progress = std::move(progress)](const std::string& text) {
         if (std::chrono::steady_clock::now() > end) {

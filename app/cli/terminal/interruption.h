@@ -35,9 +35,11 @@ void work_within_walls(const CommonOptions& common, const evaluation::Walls& wal
 /// The same of the time of one evaluation among many, evaluation::walls_of_evaluation(), from now on: told as progress, so that
 /// it ends alone. What does not tell of its progress goes on.
 /// \param record  for the message: "old.json"
+/// \param files   that hold it: a large one may take longer
 /// \return throws gum::StorageError, GC-STORE-0024, where its time is used up
 [[nodiscard]] gum::Progress progress_within_walls(const CommonOptions& common, const std::string& record,
-                                                  gum::Progress progress = {});
+                                                  gum::Progress progress = {},
+                                                  const std::vector<std::filesystem::path>& files = {});
 
 /// What the program is doing, for the words of an interruption.
 void tell_stage(const std::string& text);

@@ -261,6 +261,23 @@ TEST(EntriesAfterAWrongClock, HaveTheTimeOfTheEntryBefore) {
     EXPECT_EQ(take("EX-2027-03", 3, "EX-2027-##", json()), "no entry is earlier than the one before");
 }
 
+/// What was issued after a clock that was ahead was issued when its own clock says, not in a month that has not come.
+TEST(EntriesAfterAWrongClock, AreIssuedWhenTheirClockSays) {
+    ToldLog log;
+    log.issue("B");
+    EXPECT_EQ(log.rules.life("B")->issued_at, log.at);
+    log.at = "2027-01-10T12:00:00Z";
+    EXPECT_EQ(log.draft("C"), "");
+    for (const char* const kind : {"reviewed", "authorised", "issued"}) {
+        const json body{{"old", {{"state", log.rules.life("C")->state}}},
+                        {"new", {{"state", kind}}},
+                        {"clock", "2026-11-29T20:00:00Z"}};
+        EXPECT_EQ(log.tell(kind, "C", body, "R. Reviewer", k_record), "");
+    }
+    EXPECT_EQ(log.rules.life("C")->issued_at, "2026-11-29T20:00:00Z");
+    EXPECT_EQ(log.rules.life("C")->since, log.at) << "no time of the log goes back";
+}
+
 /// A number that was taken for an amendment of one certificate is that of no other one, and of no ordinary certificate.
 TEST(Amendments, HaveTheNumberOfTheirOriginal) {
     constexpr const char* rule = "a number that was taken for an amendment is one of its original";

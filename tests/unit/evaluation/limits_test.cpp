@@ -74,6 +74,13 @@ TEST(Limits, OfFilesOfOthersGrowWithThem) {
     EXPECT_EQ(walls_of({folder / "small", folder / "nothing"}).time, 60U);
     EXPECT_EQ(walls_of({folder / "small", folder / "large"}).time, 120U) << "1 and 3 steps";
     EXPECT_EQ(walls_of({folder / "small", folder / "large"}).memory, 3 * k_gib + 2 * 262'144) << "the largest counts";
+    EXPECT_EQ(walls_of_evaluation({folder / "large"}).memory, 4 * k_gib);
+    EXPECT_EQ(walls_of_evaluation({folder / "large"}).time, 600U);
+    // A budget of 100 000 points and four inputs, the most points of a job, which takes 6 GB.
+    fs::resize_file(folder / "large", 379'275'231);
+    EXPECT_EQ(walls_of_evaluation({folder / "large"}).memory, walls_of({folder / "large"}).memory);
+    EXPECT_EQ(walls_of_evaluation({folder / "large"}).time, walls_of({folder / "large"}).time);
+    EXPECT_GT(walls_of_evaluation({folder / "large"}).memory, 8 * k_gib);
 }
 
 }  // namespace

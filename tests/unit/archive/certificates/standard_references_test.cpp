@@ -92,6 +92,24 @@ TEST(NameInAText, StandsBetweenWordsOfItsOwnScript) {
     }
 }
 
+/// Points of Hebrew and Arabic are written or not, such as the endings of cases: the word before them is the same one. What goes on
+/// behind them, or makes another letter of the last one, makes another word.
+TEST(NameInAText, EndsBeforePointsOfItsLetters) {
+    const std::string arabic = "\u0645\u0639\u064A\u0627\u0631";
+    const std::string hebrew = "\u05EA\u05E7\u05DF";
+    for (const std::string& text : {arabic + "\u064C", arabic + "\u0650\u0651 2", arabic + "\u064F, 2"}) {
+        EXPECT_TRUE(names(text, arabic)) << text;
+    }
+    for (const std::string& text : {hebrew + "\u05B8", hebrew + "\u05BC\u05B8 2"}) {
+        EXPECT_TRUE(names(text, hebrew)) << text;
+    }
+    for (const std::string& text :
+         {arabic + "\u0650\u064A\u0629", arabic + "\u06502", arabic + "\u0650-2", arabic + "\u0654"}) {
+        EXPECT_FALSE(names(text, arabic)) << text;
+    }
+    EXPECT_FALSE(names(hebrew + "\u05B8\u05D9\u05DD", hebrew));
+}
+
 /// Law: a text that names something has all of its plain words, so that it is found by any of them.
 TEST(NameInAText, HasItsWordsInTheText) {
     std::mt19937_64 random(29);
