@@ -396,6 +396,29 @@ TEST(Certify, TakesTheRangeOfTheScopeThatThePointIsIn) {
     EXPECT_EQ(entries(), "high low") << "what is no size says nothing";
     record.points->columns[0].printed = {"10 V", "-1000 m"};
     EXPECT_EQ(entries(), "low low");
+    // A result at some of the points only.
+    record.points->columns[0].printed = {"1 km", "100 m"};
+    EvaluationRecord at_b = record;
+    at_b.results.erase(at_b.results.begin());
+    certify(at_b, data, {}, {});
+    EXPECT_EQ(at_b.certificate->tables.at(0).columns.at(0).values.at(0).scope_entry, "low");
+    // A result that has no point has no range.
+    record.points->columns[0].printed = {"1 km", "1 km"};
+    EvaluationRecord beside = record;
+    beside.results.push_back(one_result(100.0, 9.0, "m").results.front());
+    beside.results.back().name = beside.results.back().quantity = "m";
+    for (certificate::ScopeEntry& one : data.accreditation->scope) {
+        one.results.emplace_back("m");
+    }
+    certify(beside, data, {}, {});
+    std::string found;
+    for (const certificate::CertifiedTable& table : beside.certificate->tables) {
+        for (const certificate::CertifiedColumn& column : table.columns) {
+            found += " " + column.result + ":" + column.values.front().scope_entry;
+        }
+    }
+    EXPECT_THAT(found, HasSubstr("l:high"));
+    EXPECT_THAT(found, HasSubstr("m:low"));
 }
 
 /// "10 ppm" of the scope is 10 ppm of what was measured.
