@@ -212,7 +212,7 @@ void add_references(const std::vector<StandardLine>& lines, const std::string& f
     if (!values.empty()) {
         remarks.push_back({.code = "GC-LAB-0023",
                            .where = file,
-                           .what = "the certificate has no nominal values, and lines have those of the reference: " +
+                           .what = "lines without a nominal value on the certificate have that of the reference: " +
                                    text::listed(values, 8),
                            .rule = "an input finds a line by its nominal value, \"at\"",
                            .action = "state in \"nominal\" at which value each of them is used",

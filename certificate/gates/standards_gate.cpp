@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <set>
@@ -192,6 +194,23 @@ std::optional<double> largest_u(const Certificate& certificate, const gum::Unit&
     return largest;
 }
 
+/// The least that a stated U may have been before it was rounded: half a unit of its last digit less. One digit, "2E-5", stands
+/// for two.
+double least_before_rounding(double U) {
+    constexpr int k_all_digits = 17;
+    const auto is_in = [U](int digits) {
+        const std::string text = text::significant(U, digits);
+        double rounded = 0.0;
+        std::from_chars(text.data(), text.data() + text.size(), rounded);
+        return rounded == U;
+    };
+    int digits = 2;
+    while (digits < k_all_digits && !is_in(digits)) {
+        ++digits;
+    }
+    return U - 0.5 * std::pow(10.0, std::floor(std::log10(U)) - (digits - 1));
+}
+
 /// Nothing that is compared with a standard of the same kind is known better than the standard.
 void against_results(FindingList& found, const Certificate& certificate, const StandardUsed& s, std::size_t i) {
     // Of ratios nobody can tell whether they are of the same kind.
@@ -205,7 +224,7 @@ void against_results(FindingList& found, const Certificate& certificate, const S
         return;
     }
     const std::optional<double> largest = largest_u(certificate, unit);
-    const double u = unit.difference_to_si(*s.U) / s.k.value_or(2.0);
+    const double u = unit.difference_to_si(least_before_rounding(*s.U)) / s.k.value_or(2.0);
     if (largest && u > *largest * (1.0 + 1e-9)) {
         found.major("T07", iso_17025("7.6.1"), place_in("/standards", i, "U"),
                     named(s) + " has a larger standard uncertainty than every result of its kind",

@@ -1,6 +1,9 @@
 #include "jobs/laboratory/register_reader.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 #include <set>
 #include <string>
 #include <tuple>
@@ -185,6 +188,19 @@ private:
         }
     }
 
+    /// Whether a value is as small beside its nominal value, or the ends of its range, as errors and corrections are.
+    static bool is_small_beside_its_place(const CalibrationResult& result, const gum::Unit& unit) {
+        constexpr double k_small = 0.01;
+        const gum::Unit of = result.nominal_unit.empty() ? unit : gum::Unit::parse(result.nominal_unit);
+        if (!gum::of_one_kind(of, unit)) {
+            return false;
+        }
+        return std::ranges::any_of(
+            std::array{result.nominal, result.low, result.high}, [&](const std::optional<double>& at) {
+                return at && std::abs(unit.to_si(result.value)) < k_small * std::abs(of.to_si(*at));
+            });
+    }
+
     static void read_relative(const JsonObject& line, CalibrationResult& result) {
         const bool is_relative = line.has("relative_U");
         if (is_relative == line.has("U")) {
@@ -194,16 +210,23 @@ private:
                         is_relative ? "keep the one that the certificate states"
                                     : "state U, or relative_U where the certificate states it as a share of the value");
         } else if (result.relative_U) {
-            // What a unit with an origin of its own calls 0 is no size that anything could be a share of.
+            // What a unit with an origin of its own, or a level, calls 0 is no size that anything could be a share of.
             const gum::Unit unit = result.unit.empty() ? gum::Unit() : gum::Unit::parse(result.unit);
-            const bool is_temperature = unit.is_celsius_temperature() || unit.to_si(0.0) != 0.0;
-            if (result.value == 0.0 || is_temperature) {
+            const bool has_origin = unit.is_celsius_temperature() || unit.to_si(0.0) != 0.0 ||
+                                    unit.dimension() == gum::Unit::parse("dB").dimension();
+            if (result.value == 0.0 || has_origin) {
                 line.refuse(
                     k_laboratory_coverage, "relative_U",
-                    is_temperature ? "relative_U of a value in " + text::in_quotes(result.unit)
-                                   : std::string("relative_U of the value 0"),
+                    has_origin ? "relative_U of a value in " + text::in_quotes(result.unit)
+                               : std::string("relative_U of the value 0"),
                     "a relative uncertainty is one of a value other than 0, of a scale without an origin of its own",
                     "state U in the unit of the value");
+            } else if (is_small_beside_its_place(result, unit)) {
+                line.refuse(k_laboratory_coverage, "relative_U",
+                            "relative_U of a value that is less than a hundredth of what it was measured at",
+                            "of an error or a correction, certificates state U as a share of what was measured, and "
+                            "relative_U is one of \"value\"",
+                            "state U in the unit of the value");
             }
             result.U = *result.relative_U * std::abs(result.value);
         }

@@ -189,21 +189,27 @@ void item(DccWriter& w, const certificate::Item& i, const std::string& id) {
     const Wording& words = w.words();
     w.xml.open("dcc:item", {{"id", id}});
     w.text("dcc:name", words.localised(i.description));
-    std::vector<std::pair<const char*, Text>> facts;
-    std::vector<const LocalisedText*> conditions{&i.condition};
+    std::vector<Text> conditions{words.localised(i.condition)}, owners{i.owner};
     for (const certificate::SectionData& section : w.data().sections) {
-        // Sections may state other conditions of one item.
-        const bool is_other = section.item && certificate::is_same_item(*section.item, i) &&
-                              std::none_of(conditions.begin(), conditions.end(),
-                                           [&](const LocalisedText* c) { return *c == section.item->condition; });
-        if (is_other) {
-            conditions.push_back(&section.item->condition);
+        if (!section.item || !certificate::is_same_item(*section.item, i)) {
+            continue;
         }
+        // Sections may state another condition, or another owner, of one item.
+        const auto add = [](std::vector<Text>& known, const Text& one) {
+            if (std::find(known.begin(), known.end(), one) == known.end()) {
+                known.push_back(one);
+            }
+        };
+        add(conditions, words.localised(section.item->condition));
+        add(owners, section.item->owner);
     }
-    for (const LocalisedText* condition : conditions) {
-        facts.emplace_back("condition", words.localised(*condition));
+    std::vector<std::pair<const char*, Text>> facts;
+    for (const Text& one : conditions) {
+        facts.emplace_back("condition", one);
     }
-    facts.emplace_back("owner", i.owner);
+    for (const Text& one : owners) {
+        facts.emplace_back("owner", one);
+    }
     w.optional_text("dcc:description", facts_in_lines(words, facts));
     if (!without_outer_blanks(i.manufacturer).empty()) {
         w.xml.open("dcc:manufacturer");

@@ -155,6 +155,40 @@ std::string out_of_ranges(const certificate::CertificateData& data, const ScopeE
     return {};
 }
 
+/// Whether the job says by its role that a result is the quantity itself.
+bool is_quantity_by_role(const ScopePlace& place) {
+    return place.table.layout && std::ranges::any_of(place.table.layout->shown, [&](const auto& shown) {
+               return shown.show == "value" && shown.of == place.column.result && !shown.role.empty() &&
+                      shown.role != "error" && shown.role != "deviation" && shown.role != "correction";
+           });
+}
+
+/// Why a capability is no share of the result itself: small beside an input of its kind it may be an error of it, unless
+/// its role says otherwise, and a share of an error would be far less than the scope states. "": it is one.
+std::string no_share_of_result(const ScopeEntry& entry, const ScopePlace& place,
+                               const certificate::CapabilityInputs& inputs) {
+    constexpr double k_small = 0.1;
+    const Unit column = Unit::parse(place.column.unit);
+    const double value = std::abs(place.column.values[place.row].value);
+    if (certificate::measured_at(place.table, place.column, place.row, column).is_place || is_quantity_by_role(place)) {
+        return {};
+    }
+    for (const auto& [name, input] : inputs.values) {
+        const Unit unit = Unit::parse(input.unit);
+        const bool has_point = place.table.argument && input.values.size() > 1;
+        const std::optional<double> at = input.values.size() == 1 ? input.values.front()
+                                         : has_point              ? input.values.at(place.point)
+                                                                  : input.without_point;
+        // A column "range" says what the item was set to.
+        if (name != "range" && at && gum::of_one_kind(unit, column) &&
+            value < k_small * std::abs(column.from_si(unit.to_si(*at)))) {
+            return "the capability of \"" + entry.id + "\" is a share, and a result that is small beside \"" + name +
+                   "\" may be an error of it";
+        }
+    }
+    return {};
+}
+
 /// The quantity of which a capability in % or ppm is a share, in the unit of the result.
 Found whole_of_share(const certificate::CertificateData& data, const ScopeEntry& entry, const ScopePlace& place,
                      const certificate::CapabilityInputs& inputs) {
@@ -163,13 +197,24 @@ Found whole_of_share(const certificate::CertificateData& data, const ScopeEntry&
     for (const ScopeEntry::Range& range : entry.ranges) {
         arguments.push_back(range.argument);
     }
-    for (const CapabilityArgument& argument : arguments) {
-        if (gum::of_one_kind(Unit::parse(argument.unit), column)) {
-            const Found at = argument_of(data, entry, place, inputs, argument);
-            return at.value ? converted(*at.value, argument.unit, place.column.unit, argument.name) : at;
-        }
-    }
     const certificate::Measured measured = certificate::measured_at(place.table, place.column, place.row, column);
+    for (const CapabilityArgument& argument : arguments) {
+        if (!gum::of_one_kind(Unit::parse(argument.unit), column)) {
+            continue;
+        }
+        if (std::string why = argument.of == "value" ? no_share_of_result(entry, place, inputs) : ""; !why.empty()) {
+            return {.value = {}, .why = std::move(why)};
+        }
+        const Found at = argument_of(data, entry, place, inputs, argument);
+        Found whole = at.value ? converted(*at.value, argument.unit, place.column.unit, argument.name) : at;
+        const Found here = converted(measured.value, measured.unit, place.column.unit, place.column.result);
+        // A parameter that is not the nominal value of what was measured makes no share less than that of this.
+        if (whole.value && here.value && std::abs(*here.value) > std::abs(*whole.value) &&
+            !certificate::is_nominal_of(std::abs(*whole.value), std::abs(*here.value))) {
+            return here;
+        }
+        return whole;
+    }
     if (measured.is_place) {
         return converted(measured.value, measured.unit, place.column.unit, place.column.result);
     }
@@ -213,6 +258,13 @@ Found in_unit_of_result(double U, const certificate::CertificateData& data, cons
 Found capability_of(const certificate::CertificateData& data, const ScopeEntry& entry, const ScopePlace& place,
                     const certificate::CapabilityInputs& inputs) {
     std::vector<ArgumentValue> arguments;
+    const certificate::Capability& stated = entry.capability;
+    if ((stated.percent_of_value || stated.ppm_of_value) && !stated.arguments.empty() &&
+        stated.arguments.front().of == "value") {
+        if (std::string why = no_share_of_result(entry, place, inputs); !why.empty()) {
+            return {.value = {}, .why = std::move(why)};
+        }
+    }
     for (const CapabilityArgument& argument : entry.capability.arguments) {
         const Found at = argument_of(data, entry, place, inputs, argument);
         if (!at.value) {

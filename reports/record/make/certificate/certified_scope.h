@@ -34,7 +34,9 @@ struct ScopeAnswer {
 /// began above it. A point that states a range beyond the value (`range`) belongs to the line that begins there.
 ///
 /// A capability in a ratio (%, ppm) is one of the quantity itself: of the first argument of capability or ranges that is of
-/// the kind of the result, else of the place where the result was measured.
+/// the kind of the result, else of the place where the result was measured. Where what was measured is larger than the
+/// argument, and not of its nominal value, it is a share of this. Of a result that is less than a tenth of an input of its
+/// kind, and whose role does not say that it is the quantity itself, nobody can say that it is no error: it is outside.
 ///
 /// A capability states about 95 %. Where a result has another coverage probability (by more than 0.01), the capability
 /// is carried over as normal, k_p of the result over k_p of the capability.

@@ -114,7 +114,9 @@ private:
 
     /// Position of a row of a table among the points of the job.
     [[nodiscard]] std::size_t point_of(const CertifiedTable& table, std::size_t row) const {
-        const auto found = table.layout ? points_.find(table.argument->printed[row]) : points_.end();
+        // Without tables of its own a result may stand at some of the points only.
+        const bool has_point = table.argument && row < table.argument->printed.size();
+        const auto found = has_point ? points_.find(table.argument->printed[row]) : points_.end();
         return found == points_.end() ? row : found->second;
     }
 
@@ -154,7 +156,7 @@ private:
                         .row = row,
                         .point = point_of(table, row),
                         .coverage_probability = p,
-                        .range = range_of(point_of(table, row))},
+                        .range = table.argument ? range_of(point_of(table, row)) : std::string()},
                        value, result);
         PrintRule rule = rule_;
         if (result != nullptr) {

@@ -95,6 +95,12 @@ TEST(RegisterGate, DoesNotRepeatWhatTheDatesOfARowSay) {
     EXPECT_THAT(ids_with("", "no", true), ElementsAre("T11")) << "T05 is less grave";
     EXPECT_THAT(ids_with("2020-01-01", "no", false), ElementsAre("T11")) << "another reason";
     EXPECT_THAT(ids_with("2029-01-01", "no", true), ElementsAre("T11")) << "the row says nothing against it";
+    const Finding told = only(with_register([](CertificateData& data, LaboratoryRegister& r) {
+        data.standards[0].valid_to = "2029-01-01";
+        data.standards[0].calibrated.clear();
+        r.uses = {{data.standards[0].identification, "V", "no", "its calibration was valid", true}};
+    }));
+    EXPECT_EQ(told.id, "T11") << "a day that is missing (R07-4c) is another cause";
 }
 
 TEST(RegisterGate, DoesNotRepeatWhatIsToldOfTheSignatory) {

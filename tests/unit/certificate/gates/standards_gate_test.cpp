@@ -79,6 +79,11 @@ TEST(StandardsGate, FindsAStandardThatIsWorseThanTheResults) {
     Certificate c = passed_certificate();
     c.data.standards[0].U = 0.0633;
     EXPECT_THAT(ids(standard_findings(c)), testing::IsEmpty());
+    c.data.standards[0].U = 0.064;  // 0.0635 at least
+    EXPECT_THAT(ids(standard_findings(c)), testing::ElementsAre("T07"));
+    c.tables[0].columns[0].values[0].u = 31.8;
+    EXPECT_THAT(ids(standard_findings(c)), testing::IsEmpty()) << "0.0636 is 0.064 in two digits";
+    c.tables[0].columns[0].values[0].u = 31.7;
     c.data.standards[0].unit = "V";  // of another kind
     c.data.standards[0].U = 1e6;
     EXPECT_THAT(ids(standard_findings(c)), testing::IsEmpty());

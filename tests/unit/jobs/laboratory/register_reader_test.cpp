@@ -98,6 +98,23 @@ TEST(RegisterReader, ReadsARelativeUncertainty) {
                          }),
                          true),
                 ElementsAre(code));
+    // A level, and an error of which the certificate states no share.
+    const auto relative_of = [&](double value, const char* unit, const char* nominal_unit) {
+        return codes_of(changed([&](json& line) {
+                            line.erase("U");
+                            line["relative_U"] = 1e-4;
+                            line["value"] = value;
+                            line["unit"] = unit;
+                            line["nominal"] = 10;
+                            line["nominal_unit"] = nominal_unit;
+                        }),
+                        true);
+    };
+    EXPECT_THAT(relative_of(10.001, "dB", "dB"), ElementsAre(code));
+    EXPECT_THAT(relative_of(0.001, "V", "V"), ElementsAre(code));
+    EXPECT_THAT(relative_of(2.0, "mV", "V"), ElementsAre(code));
+    EXPECT_THAT(relative_of(10001.0, "mV", "V"), testing::IsEmpty());
+    EXPECT_THAT(relative_of(0.001, "V", "A"), testing::IsEmpty()) << "of a shunt";
     EXPECT_THAT(codes_of(changed([](json& line) {
                              line.erase("U");
                              line["relative_U"] = 2;

@@ -396,6 +396,55 @@ TEST(Certify, TakesTheRangeOfTheScopeThatThePointIsIn) {
     EXPECT_EQ(entries(), "high low") << "what is no size says nothing";
     record.points->columns[0].printed = {"10 V", "-1000 m"};
     EXPECT_EQ(entries(), "low low");
+    // A result at some of the points only.
+    record.points->columns[0].printed = {"1 km", "100 m"};
+    EvaluationRecord at_b = record;
+    at_b.results.erase(at_b.results.begin());
+    certify(at_b, data, {}, {});
+    EXPECT_EQ(at_b.certificate->tables.at(0).columns.at(0).values.at(0).scope_entry, "low");
+    // A result that has no point has no range.
+    record.points->columns[0].printed = {"1 km", "1 km"};
+    EvaluationRecord beside = record;
+    beside.results.push_back(one_result(100.0, 9.0, "m").results.front());
+    beside.results.back().name = beside.results.back().quantity = "m";
+    for (certificate::ScopeEntry& one : data.accreditation->scope) {
+        one.results.emplace_back("m");
+    }
+    certify(beside, data, {}, {});
+    std::string found;
+    for (const certificate::CertifiedTable& table : beside.certificate->tables) {
+        for (const certificate::CertifiedColumn& column : table.columns) {
+            found += " " + column.result + ":" + column.values.front().scope_entry;
+        }
+    }
+    EXPECT_THAT(found, HasSubstr("l:high"));
+    EXPECT_THAT(found, HasSubstr("m:low"));
+}
+
+/// An error is far less than what it is an error of, and so would be its share.
+TEST(Certify, TakesNoShareOfAnErrorOrOfAnotherNumber) {
+    CertificateData data = data_with(test::capability_of_one_value(1.0, "percent"));
+    data.accreditation->scope[0].ranges = {
+        {.argument = {.name = "L", .unit = "mm", .of = "value"}, .low = 0.0, .high = 1e6}};
+    certificate::CapabilityInputs inputs;
+    const auto value = [&](double y) { return certified(one_result(y, 0.001, "m"), data, {}, inputs); };
+    inputs.values["l_0"] = {.unit = "cm", .values = {9999.0}};
+    EXPECT_EQ(value(100.0).capability, 1.0);
+    EXPECT_THAT(value(1.0).outside_because, HasSubstr("small beside \"l_0\"")) << "100 m beside 1 m";
+    inputs.values = {{"range", {.unit = "km", .values = {1.0}}}, {"t", {.unit = "s", .values = {1e6}}}};
+    EXPECT_EQ(value(1.0).capability, 0.01) << "a range of the item, and another kind";
+    inputs.values = {{"l_0", {.unit = "m", .values = {100.0}}}};
+    data.accreditation->scope[0].capability = Capability{
+        .form = "value", .unit = "mm", .U = 1.0, .percent_of_value = 1.0, .arguments = {{.name = "L", .unit = "m"}}};
+    EXPECT_NEAR(value(100.0).capability.value(), 1.001, 1e-12);
+    EXPECT_THAT(value(1.0).outside_because, HasSubstr("small beside"));
+    // A parameter that has nothing to do with what was measured, and one that is its nominal value.
+    data.accreditation->scope[0].capability = test::capability_of_one_value(1.0, "percent");
+    data.accreditation->scope[0].ranges[0].argument = {.name = "L", .unit = "m", .of = "L_0"};
+    data.parameters = {{.name = "L_0", .unit = "m", .value = 1.0}};
+    EXPECT_EQ(value(100.0).capability, 1.0) << "and not 1 % of 1 m";
+    data.parameters[0].value = 99.0;
+    EXPECT_EQ(value(100.0).capability, 0.99);
 }
 
 /// "10 ppm" of the scope is 10 ppm of what was measured.
