@@ -719,8 +719,10 @@ private:
     /// The test of one size along an effect, without its place. Nothing where the parameters take the effect up wholly, and where a
     /// displaced reflector or a fixture of another size explains more at the same weights: then it is they.
     /// \param more  how many times as much as they it must explain
+    /// \param degrees_of_freedom  of what the effect was found in: one that is known beforehand has one
     [[nodiscard]] std::optional<GroupTest> test_of_one_size(GroupKind kind, const VisitEffects::Effect& effect,
-                                                            std::size_t count, double more = 1.0) const {
+                                                            std::size_t count, double more = 1.0,
+                                                            int degrees_of_freedom = 1) const {
         const VisitEffects::Projection projection = visits_.projection(effect, 1);
         const double spread = projection.spread(0, 0);
         if (!(spread > k_controlled * projection.weight)) {
@@ -730,7 +732,7 @@ private:
         if (chi_square < more * misfit_of_fixture_) {
             return std::nullopt;
         }
-        GroupTest test = judged(kind, chi_square / (used_scale_ * used_scale_), 1, count);
+        GroupTest test = judged(kind, chi_square / (used_scale_ * used_scale_), degrees_of_freedom, count);
         test.estimate = projection.weighted[0] / spread;
         test.minimal_detectable = detectable(test, spread);
         return test;
@@ -864,15 +866,21 @@ private:
                 }
             }
             const VisitEffects::Projection projection = visits_.projection(free, 6);
-            const VectorXd own =
-                pseudo_inverse(projection.spread, k_controlled * projection.weight).inverse * projection.weighted;
+            const Inverted inverted = pseudo_inverse(projection.spread, k_controlled * projection.weight);
+            if (inverted.rank == 0) {
+                continue;
+            }
+            const VectorXd own = inverted.inverse * projection.weighted;
             const VectorXd of_others = of_all - visits_.shift_of_parameters(free, 6)(reversal_, Eigen::all) * own;
             for (std::size_t g = 0; g < visits_.size(); ++g) {
                 if (free[g].size() > 0) {
                     effect[g] = free[g] * of_others;
                 }
             }
-            std::optional<GroupTest> test = test_of_one_size(GroupKind::senses, effect, stations);
+            // The same distances say which reversal it is, and chance has all its directions to lie in: without one, a
+            // single degree of freedom would accuse many times as often as it may.
+            std::optional<GroupTest> test =
+                test_of_one_size(GroupKind::senses, effect, stations, 1.0, static_cast<int>(inverted.rank));
             // What has another size is another fault, or the reversal is hardly there.
             if (!test || std::abs(test->estimate - 1.0) > k_most_off_of_reversal) {
                 continue;

@@ -270,6 +270,7 @@ TEST(GroupTests, TellInterchangedSensesOfAStation) {
         const GroupTest& first = groups.tests.front();
         EXPECT_TRUE(first.suspicious) << told(groups);
         EXPECT_EQ(first.kind, GroupKind::senses) << told(groups);
+        EXPECT_GT(first.degrees_of_freedom, 1) << "the same distances say which reversal it is";
         EXPECT_EQ(first.station, 2U) << told(groups);
         EXPECT_NEAR(first.estimate, 1.0, 0.3) << told(groups);
         EXPECT_EQ(std::ranges::count_if(groups.tests, &GroupTest::suspicious), 1) << told(groups);
