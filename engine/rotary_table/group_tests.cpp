@@ -34,6 +34,9 @@ constexpr double k_most_off_of_reversal = 0.4;  // of the reversal: by more an e
 constexpr double k_least_expansion = -10e-6;    // [1/K], of what a fixture is made of
 constexpr double k_most_expansion = 200e-6;
 constexpr double k_clearly_more = 1.02;  // of chi-square: what explains the same in other words explains it to rounding
+// Of chi-square: of two causes the wrong one explains so much more in one of two thousand measurements at most, however alike
+// they are: the difference has the mean -q and the variance 4q.
+constexpr double k_more_than_chance = 10.8;
 constexpr std::size_t k_fewest_for_scatter = 8;    // visits: fewer say nothing of a scatter
 constexpr std::size_t k_drift_hypotheses = 3;      // all stations alike, each its own, one station
 constexpr std::size_t k_most_angle_bounds = 36;    // between which a reflector is looked at to stand elsewhere
@@ -810,9 +813,11 @@ private:
                 effect[g] = -stated / adjusted * adjustment_.adjustment().jacobian(g, adjustment_.expansion_block());
             }
         }
-        // At one temperature it is the size of the fixture: then that is told, which names the temperature as well.
+        // At one temperature it is the size of the fixture: then that is told, which names temperature and coefficient as well;
+        // and where temperatures are so alike that chance decides which of both explains more.
         std::optional<GroupTest> test = test_of_one_size(GroupKind::expansion, effect, 1, k_clearly_more);
-        if (!test) {
+        if (!test || (misfit_of_fixture_ > 0.0 &&
+                      test->chi_square < misfit_of_fixture_ / (used_scale_ * used_scale_) + k_more_than_chance)) {
             return std::nullopt;
         }
         const double coefficient = adjustment_.measurement().expansion - test->estimate;
