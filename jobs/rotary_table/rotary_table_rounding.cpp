@@ -91,7 +91,7 @@ void check_rounding(const RotaryTableReading& reading) {
     const engine::RotaryTableMeasurement& measurement = reading.job().measurement;
     const engine::LengthUncertainty& stated = measurement.length_uncertainty;
     const std::optional<double> step = step_of_lengths(measurement.lengths);
-    if (!step || !(stated.u_constant > 0.0)) {
+    if (!step || !(stated.u_constant > 0.0 || stated.u_proportional > 0.0)) {
         return;
     }
     double longest = 0.0;

@@ -952,6 +952,8 @@ TEST(RotaryTableJob, LengthsThatAreRoundedByMoreThanTheirUncertaintyAreWarnedOf)
     const auto refused = refusals(rounded_campaign(2, "\"u_constant_um\": 0.25, \"u_proportional_um_per_m\": 0.1"));
     ASSERT_EQ(refused.size(), 1U);
     EXPECT_THAT(gum::message(refused[0]), HasSubstr("while 0.47 µm is stated at 4 m"));
+    const std::string in_proportion_only = "\"u_constant_um\": 0, \"u_proportional_um_per_m\": 0.1";
+    EXPECT_EQ(refusals(rounded_campaign(2, in_proportion_only)).size(), 1U);
 }
 
 TEST(RotaryTableJob, LeavesFullTurnsInDegreesAlone) {
