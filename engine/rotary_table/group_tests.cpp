@@ -34,6 +34,9 @@ constexpr double k_most_off_of_reversal = 0.4;  // of the reversal: by more an e
 constexpr double k_least_expansion = -10e-6;    // [1/K], of what a fixture is made of
 constexpr double k_most_expansion = 200e-6;
 constexpr double k_clearly_more = 1.02;  // of chi-square: what explains the same in other words explains it to rounding
+// Of chi-square: of two causes the wrong one explains so much more in one of two thousand measurements at most, however alike
+// they are: the difference has the mean -q and the variance 4q.
+constexpr double k_more_than_chance = 10.8;
 constexpr std::size_t k_fewest_for_scatter = 8;    // visits: fewer say nothing of a scatter
 constexpr std::size_t k_drift_hypotheses = 3;      // all stations alike, each its own, one station
 constexpr std::size_t k_most_angle_bounds = 36;    // between which a reflector is looked at to stand elsewhere
@@ -719,8 +722,10 @@ private:
     /// The test of one size along an effect, without its place. Nothing where the parameters take the effect up wholly, and where a
     /// displaced reflector or a fixture of another size explains more at the same weights: then it is they.
     /// \param more  how many times as much as they it must explain
+    /// \param degrees_of_freedom  of what the effect was found in: one that is known beforehand has one
     [[nodiscard]] std::optional<GroupTest> test_of_one_size(GroupKind kind, const VisitEffects::Effect& effect,
-                                                            std::size_t count, double more = 1.0) const {
+                                                            std::size_t count, double more = 1.0,
+                                                            int degrees_of_freedom = 1) const {
         const VisitEffects::Projection projection = visits_.projection(effect, 1);
         const double spread = projection.spread(0, 0);
         if (!(spread > k_controlled * projection.weight)) {
@@ -730,7 +735,7 @@ private:
         if (chi_square < more * misfit_of_fixture_) {
             return std::nullopt;
         }
-        GroupTest test = judged(kind, chi_square / (used_scale_ * used_scale_), 1, count);
+        GroupTest test = judged(kind, chi_square / (used_scale_ * used_scale_), degrees_of_freedom, count);
         test.estimate = projection.weighted[0] / spread;
         test.minimal_detectable = detectable(test, spread);
         return test;
@@ -808,9 +813,11 @@ private:
                 effect[g] = -stated / adjusted * adjustment_.adjustment().jacobian(g, adjustment_.expansion_block());
             }
         }
-        // At one temperature it is the size of the fixture: then that is told, which names the temperature as well.
+        // At one temperature it is the size of the fixture: then that is told, which names temperature and coefficient as well;
+        // and where temperatures are so alike that chance decides which of both explains more.
         std::optional<GroupTest> test = test_of_one_size(GroupKind::expansion, effect, 1, k_clearly_more);
-        if (!test) {
+        if (!test || (misfit_of_fixture_ > 0.0 &&
+                      test->chi_square < misfit_of_fixture_ / (used_scale_ * used_scale_) + k_more_than_chance)) {
             return std::nullopt;
         }
         const double coefficient = adjustment_.measurement().expansion - test->estimate;
@@ -864,15 +871,21 @@ private:
                 }
             }
             const VisitEffects::Projection projection = visits_.projection(free, 6);
-            const VectorXd own =
-                pseudo_inverse(projection.spread, k_controlled * projection.weight).inverse * projection.weighted;
+            const Inverted inverted = pseudo_inverse(projection.spread, k_controlled * projection.weight);
+            if (inverted.rank == 0) {
+                continue;
+            }
+            const VectorXd own = inverted.inverse * projection.weighted;
             const VectorXd of_others = of_all - visits_.shift_of_parameters(free, 6)(reversal_, Eigen::all) * own;
             for (std::size_t g = 0; g < visits_.size(); ++g) {
                 if (free[g].size() > 0) {
                     effect[g] = free[g] * of_others;
                 }
             }
-            std::optional<GroupTest> test = test_of_one_size(GroupKind::senses, effect, stations);
+            // The same distances say which reversal it is, and chance has all its directions to lie in: without one, a
+            // single degree of freedom would accuse many times as often as it may.
+            std::optional<GroupTest> test =
+                test_of_one_size(GroupKind::senses, effect, stations, 1.0, static_cast<int>(inverted.rank));
             // What has another size is another fault, or the reversal is hardly there.
             if (!test || std::abs(test->estimate - 1.0) > k_most_off_of_reversal) {
                 continue;

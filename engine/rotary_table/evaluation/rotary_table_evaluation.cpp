@@ -101,12 +101,14 @@ void require_convergence(const SolveSummary& summary, const RotaryTableMeasureme
     if (!summary.converged) {
         // In the place of micrometres, a stated uncertainty in millimetres makes the distances a thousand times stiffer than
         // what is known of the fixture, and no step comes to an end.
+        const double constant = measurement.length_uncertainty.u_constant;
         throw gum::NoResultError(gum::Diagnostic{
             "GC-ADJUST-0005", "adjustment", "did not converge (" + summary.message + ")",
             "a result is the minimum of the weighted squares",
             "check that stations, reflectors and angles of the lengths are not interchanged, the start values, and the "
-            "stated standard uncertainty of a length, " +
-                micrometres(measurement.length_uncertainty.u_constant, 6),
+            "stated standard uncertainty of a length" +
+                // What grows with the distance may be all that is stated.
+                (constant > 0.0 ? ", " + micrometres(constant, 6) : std::string()),
             gum::Severity::error});
     }
 }

@@ -889,6 +889,21 @@ TEST(RotaryTableJob, AcceptsDisplayedLengthsThatAreNegative) {
     EXPECT_EQ(job.measurement.lengths[2].length, 0.0);
 }
 
+/// The last digits of passes in negative direction otherwise than those of the passes before them, four of five.
+std::string scattered_returns(const std::string& lengths) {
+    std::istringstream lines(lengths);
+    std::string text;
+    std::size_t count = 0;
+    for (std::string line; std::getline(lines, line);) {
+        if (line.find(",-,") != std::string::npos) {
+            char& last = line[line.rfind(',') - 1];
+            last = static_cast<char>('0' + (static_cast<std::size_t>(last - '0') + count++ % 5) % 10);
+        }
+        text += line + "\n";
+    }
+    return text;
+}
+
 /// The small campaign with fewer decimals of its lengths, and what is stated of them.
 Files rounded_campaign(std::size_t decimals, const std::string& stated) {
     Files files = small_campaign();
@@ -928,6 +943,17 @@ TEST(RotaryTableJob, LengthsThatAreRoundedByMoreThanTheirUncertaintyAreWarnedOf)
     // Both passes of each station come back to the same readings.
     EXPECT_THAT(codes_of(rounded_campaign(2, "\"u_constant_um\": 0.25, \"resolution_um\": 10")),
                 ElementsAre(k_warn_rounded_alike.code));
+    // A table that scatters over steps comes back to other readings, and so is each rounded.
+    Files scattered = rounded_campaign(2, "\"u_constant_um\": 0.25, \"resolution_um\": 10");
+    scattered.at("lengths.csv") = scattered_returns(scattered.at("lengths.csv"));
+    EXPECT_THAT(codes_of(scattered), IsEmpty());
+    // The displayed lengths are below 1.1 m, and how much longer the distances are is not known.
+    EXPECT_THAT(codes_of(rounded_campaign(2, "\"u_constant_um\": 0.25, \"u_proportional_um_per_m\": 1")), IsEmpty());
+    const auto refused = refusals(rounded_campaign(2, "\"u_constant_um\": 0.25, \"u_proportional_um_per_m\": 0.1"));
+    ASSERT_EQ(refused.size(), 1U);
+    EXPECT_THAT(gum::message(refused[0]), HasSubstr("while 0.47 µm is stated at 4 m"));
+    const std::string in_proportion_only = "\"u_constant_um\": 0, \"u_proportional_um_per_m\": 0.1";
+    EXPECT_EQ(refusals(rounded_campaign(2, in_proportion_only)).size(), 1U);
 }
 
 TEST(RotaryTableJob, LeavesFullTurnsInDegreesAlone) {

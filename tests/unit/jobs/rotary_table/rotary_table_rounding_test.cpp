@@ -37,6 +37,18 @@ TEST(Rounding, FindsTheStepOfLengths) {
     }
     EXPECT_FALSE(step_of_lengths(lengths_in_steps_of(1000, 10))) << "so few are multiples by chance";
     EXPECT_FALSE(step_of_lengths(std::vector<engine::LengthObservation>(40))) << "all alike";
+    std::vector<engine::LengthObservation> pairs = lengths_in_steps_of(1000);
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+        pairs[i].dead_path = i / 3;
+    }
+    EXPECT_TRUE(step_of_lengths(pairs));
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+        pairs[i].dead_path = i == 0 ? 1 : i;
+    }
+    EXPECT_FALSE(step_of_lengths(pairs)) << "one difference is a multiple of itself";
+    std::vector<engine::LengthObservation> twice = lengths_in_steps_of(1000, 15);
+    twice.insert(twice.end(), twice.begin(), twice.end());
+    EXPECT_FALSE(step_of_lengths(twice)) << "what comes back says nothing new";
 }
 
 }  // namespace
