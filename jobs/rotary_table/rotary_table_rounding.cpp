@@ -73,8 +73,7 @@ std::optional<double> step_of_lengths(const std::vector<engine::LengthObservatio
         shown.emplace_back(length.dead_path, static_cast<std::int64_t>(whole));
     }
     std::ranges::sort(shown);
-    const auto repeated = std::ranges::unique(shown);
-    shown.erase(repeated.begin(), repeated.end());
+    shown.erase(std::unique(shown.begin(), shown.end()), shown.end());
     std::size_t differences =
         0;  // only they tell of a step: two lengths of a dead path are multiples of theirs, whatever it is
     std::int64_t step = 0;
