@@ -422,7 +422,8 @@ OutcomeIntervals outcome_intervals(const AuditedBudget& budget, const CoverageRu
         };
         const double independent = nu_eff(CorrelatedRows::independent),
                      as_one = nu_eff(CorrelatedRows::one_contribution);
-        const double ratio = std::isfinite(as_one) && std::isfinite(independent) ? as_one / independent : 1.0;
+        // Of rows that cancel nothing remains that has degrees of freedom: infinitely many are allowed then.
+        const double ratio = std::isfinite(independent) ? as_one / independent : 1.0;
         intervals.nu_eff = {std::min(1.0, ratio) * intervals.nu_eff.low, std::max(1.0, ratio) * intervals.nu_eff.high};
     }
     if (coverage.kind == CoverageRule::Kind::fixed) {

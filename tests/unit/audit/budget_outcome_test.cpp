@@ -96,6 +96,11 @@ TEST(BudgetOutcome, TakesCorrelatedRowsForOneContribution) {
     EXPECT_NEAR(evaluate(sum).nu_eff, 18.0, 1e-9) << "neither is a reason to find fault";
     EXPECT_LE(outcome_intervals(sum).nu_eff.low, 4.0 * (1.0 + 1e-9));
     EXPECT_GE(outcome_intervals(sum).nu_eff.high, 18.0 * (1.0 - 1e-9));
+    // Where all that has degrees of freedom cancels, infinitely many are allowed, as they are recomputed.
+    AuditedBudget cancelled = budget_of({row("a", 0.5, 1.0, 8.0), row("b", 0.5, -1.0, 8.0), row("c", 0.25)});
+    cancelled.correlations = {{.first = 0, .second = 1, .r = 1.0}};
+    EXPECT_TRUE(std::isinf(evaluate(cancelled).nu_eff));
+    EXPECT_TRUE(std::isinf(outcome_intervals(cancelled).nu_eff.high));
     // A row that hardly correlates does not make the others its own.
     AuditedBudget weak = budget_of({row("a", 1.0), row("b", 0.01, 1.0, 2.0)});
     weak.correlations = {{.first = 0, .second = 1, .r = 0.01}};

@@ -78,6 +78,18 @@ TEST(Correlations, LeaveTheDegreesOfFreedomOfOneContribution) {
     EXPECT_EQ(rules_of("nu_eff,,,28,,,\nk,,,2.09,,,\nU,,um,0.029,,,\n"), "");
     EXPECT_EQ(rules_of("nu_eff,,,28.8,,,\nk,,,2.09,,,\nU,,um,0.029,,,\n"), "");
     EXPECT_EQ(rules_of("nu_eff,,,4.8,,,\nk,,,2.69,,,\nU,,um,0.037,,,\n"), "S12");
+    // One source in two rows that add, whose four degrees of freedom the table states: k = 2 is a fixed k of few.
+    const std::string sum =
+        "Quantity,Estimate,Unit,u,nu,Sensitivity,Contribution\nGauge A,0,um,0.0200,4,1,0.0200\nGauge "
+        "B,0,um,0.0200,4,1,0.0200\nIndication,0,um,0.0010,9,1,0.0010\n\"r(A, B)\",0.9,,,,,\nu_c,,um,0.0390,,,\n";
+    const auto fixed_k = [&](const std::string& nu_eff) {
+        const AuditReport report = audit_of_correlated(sum + nu_eff + "k,,,2,,,\nU,,um,0.078,,,\n");
+        return std::any_of(report.findings.begin(), report.findings.end(),
+                           [](const AuditFinding& finding) { return finding.rule == "K02"; });
+    };
+    EXPECT_TRUE(fixed_k("nu_eff,,,4,,,\n"));
+    EXPECT_FALSE(fixed_k("nu_eff,,,28,,,\n"));
+    EXPECT_FALSE(fixed_k(""));
 }
 
 /// A coefficient in a cell is read with its symbol; a term with the sign of a correlation is none of the rows.
