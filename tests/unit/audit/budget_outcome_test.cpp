@@ -107,6 +107,38 @@ TEST(BudgetOutcome, TakesCorrelatedRowsForOneContribution) {
     EXPECT_GT(evaluate(weak).nu_eff, 1e6);
 }
 
+/// u of a difference of rows with one digit each: what the digits leave open holds all that they may have been, and not everything.
+TEST(BudgetOutcome, LeavesOpenOfTwoCorrelatedRowsWhatTheirDigitsDo) {
+    AuditedBudget budget = budget_of({row("a", 0.02), row("b", 0.02, -1.0), row("c", 0.01)});
+    for (AuditedRow& one : budget.rows) {
+        one.u_half_step = 0.005;
+    }
+    budget.correlations = {{.first = 0, .second = 1, .r = 0.9}};
+    const Interval u_c = outcome_intervals(budget).u_c;
+    EXPECT_GT(u_c.low, 0.005);
+    EXPECT_LT(u_c.high, 0.024) << "0.030 is that of independent rows";
+    for (const double sign : {-1.0, 1.0}) {
+        for (const double r : {-1.0, -0.4, 0.0, 0.3, 0.9, 1.0}) {
+            budget.correlations[0].r = r;
+            budget.rows[1].used_sensitivity = sign;
+            const Interval allowed = outcome_intervals(budget).u_c;
+            AuditedBudget exact = budget;
+            for (const double a : {0.015, 0.017, 0.02, 0.025}) {
+                for (const double b : {0.015, 0.019, 0.022, 0.025}) {
+                    for (const double c : {0.005, 0.015}) {
+                        exact.rows[0].used_u = a;
+                        exact.rows[1].used_u = b;
+                        exact.rows[2].used_u = c;
+                        const double u = evaluate(exact).u_c;
+                        EXPECT_LE(allowed.low, u * (1.0 + 1e-12)) << r << " " << sign << " " << a << " " << b;
+                        EXPECT_GE(allowed.high, u * (1.0 - 1e-12)) << r << " " << sign << " " << a << " " << b;
+                    }
+                }
+            }
+        }
+    }
+}
+
 TEST(BudgetOutcome, NeverStatesLessThanTheCapability) {
     AuditedBudget budget = weight();
     budget.capability = 70.0;
