@@ -359,6 +359,27 @@ Interval student_factors(const CoverageRule& rule, const Interval& nu_eff) {
     return {student_factor(rule, std::max(fewest, nu_eff.high)), student_factor(rule, fewest)};
 }
 
+namespace {
+
+/// The least and the largest x² + y² + 2 r x y of two contributions, with r as far as one decimal leaves it open.
+Interval variance_of_pair(const Interval& x, const Interval& y, double r) {
+    constexpr double k_one_decimal = 0.05;
+    const double lowest = std::clamp(r - k_one_decimal, -1.0, 1.0), highest = std::clamp(r + k_one_decimal, -1.0, 1.0);
+    const auto sum = [](double a, double b, double correlation) { return a * a + b * b + 2.0 * correlation * a * b; };
+    // The form is convex: the largest is that of a corner, the least that of an edge, where it has its own minimum.
+    Interval variance{sum(x.low, y.low, lowest), sum(x.low, y.low, highest)};
+    for (const double a : {x.low, x.high}) {
+        for (const double b : {y.low, y.high}) {
+            variance.high = std::max(variance.high, sum(a, b, highest));
+            variance.low = std::min({variance.low, sum(a, std::clamp(-lowest * a, y.low, y.high), lowest),
+                                     sum(std::clamp(-lowest * b, x.low, x.high), b, lowest)});
+        }
+    }
+    return variance;
+}
+
+}  // namespace
+
 OutcomeIntervals outcome_intervals(const AuditedBudget& budget) {
     return outcome_intervals(budget, budget.coverage);
 }
@@ -395,9 +416,33 @@ OutcomeIntervals outcome_intervals(const AuditedBudget& budget, const CoverageRu
         low += std::min(one, other);
         high += std::max(one, other);
     }
+    // Of two rows that correlate with each other alone, what both may be together is known: of a difference the bound above
+    // would be from 0 to more than both as independent ones, where u has one digit.
+    Interval variance{low, high}, together{budget.correlation_variance, budget.correlation_variance};
+    std::vector<std::size_t> pairs_of_row(budget.rows.size(), 0);
+    for (const RowCorrelation& pair : budget.correlations) {
+        ++pairs_of_row[pair.first];
+        ++pairs_of_row[pair.second];
+    }
+    const auto is_lone = [&](const RowCorrelation& pair) {
+        return pair.first != pair.second && pairs_of_row[pair.first] == 1 && pairs_of_row[pair.second] == 1;
+    };
+    if (!budget.correlations.empty() && std::all_of(budget.correlations.begin(), budget.correlations.end(), is_lone)) {
+        for (std::size_t i = 0; i < budget.rows.size(); ++i) {
+            const Interval range = pairs_of_row[i] == 0 ? part(budget.rows[i]) : Interval{0.0, 0.0};
+            together = {together.low + range.low * range.low, together.high + range.high * range.high};
+        }
+        for (const RowCorrelation& pair : budget.correlations) {
+            const AuditedRow &a = budget.rows[pair.first], &b = budget.rows[pair.second];
+            const bool is_difference = a.used_sensitivity * b.used_sensitivity < 0.0;
+            const Interval both = variance_of_pair(part(a), part(b), is_difference ? -pair.r : pair.r);
+            together = {together.low + both.low, together.high + both.high};
+        }
+        variance = {std::max(low, together.low), std::min(high, together.high)};
+    }
     OutcomeIntervals intervals;
     const double beyond = budget.variance_beyond_tangent;
-    intervals.u_c = {std::sqrt(std::max(0.0, low + beyond)), std::sqrt(std::max(0.0, high + beyond))};
+    intervals.u_c = {std::sqrt(std::max(0.0, variance.low + beyond)), std::sqrt(std::max(0.0, variance.high + beyond))};
 
     double least = 0.0, most = 0.0;
     for (const AuditedRow& row : budget.rows) {
@@ -422,7 +467,8 @@ OutcomeIntervals outcome_intervals(const AuditedBudget& budget, const CoverageRu
         };
         const double independent = nu_eff(CorrelatedRows::independent),
                      as_one = nu_eff(CorrelatedRows::one_contribution);
-        const double ratio = std::isfinite(as_one) && std::isfinite(independent) ? as_one / independent : 1.0;
+        // Of rows that cancel nothing remains that has degrees of freedom: infinitely many are allowed then.
+        const double ratio = std::isfinite(independent) ? as_one / independent : 1.0;
         intervals.nu_eff = {std::min(1.0, ratio) * intervals.nu_eff.low, std::max(1.0, ratio) * intervals.nu_eff.high};
     }
     if (coverage.kind == CoverageRule::Kind::fixed) {

@@ -306,12 +306,36 @@ ClaimCheck explained_claims(const AuditedBudget& budget) {
 
 }  // namespace
 
+namespace {
+
+/// Whether the ν_eff that is claimed beside a fixed k is rather that of correlated rows as one contribution, and below that of
+/// independent rows: the table says itself how few degrees of freedom there are.
+bool claims_few_of_one_contribution(const AuditedBudget& budget, const CoverageRule& coverage) {
+    const std::optional<StatedNumber>& claimed = budget.claims.nu_eff;
+    if (coverage.kind != CoverageRule::Kind::fixed || budget.correlations.empty() || !claimed ||
+        !std::isfinite(claimed->value) || !(claimed->value > 0.0)) {
+        return false;
+    }
+    const auto nu_eff = [&](CorrelatedRows correlated) {
+        CoverageRule rule = coverage;
+        rule.correlated = correlated;
+        return evaluate(budget, rule).nu_eff;
+    };
+    const double as_one = nu_eff(CorrelatedRows::one_contribution), independent = nu_eff(CorrelatedRows::independent);
+    return as_one < independent && claimed->value / as_one < independent / claimed->value;
+}
+
+}  // namespace
+
 ClaimCheck check_claims(const AuditedBudget& budget) {
     ClaimCheck check = explained_claims(budget);
     if (!check.allowed) {
         return check;
     }
     const Claims& claims = budget.claims;
+    if (claims_few_of_one_contribution(budget, check.coverage)) {
+        check.coverage.correlated = CorrelatedRows::one_contribution;
+    }
     check.nu_eff_apart = check.nu_eff_outside || (claims.nu_eff && std::isfinite(claims.nu_eff->value) &&
                                                   !before_cutting(*claims.nu_eff).meets(wide(check.allowed->nu_eff)));
     check.k_outside =

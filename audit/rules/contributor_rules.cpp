@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "audit/budget_outcome.h"
 #include "audit/checklists.h"
 #include "audit/rules/gate_findings.h"
 #include "audit/rules/registry.h"
@@ -15,6 +16,8 @@
 #include "audit/word_line.h"
 #include "certificate/dates.h"
 #include "certificate/text_words.h"
+#include "gum/quantity/diagnostic.h"
+#include "gum/quantity/unit.h"
 
 namespace gumcert::audit {
 namespace {
@@ -33,12 +36,25 @@ struct RowWithName {
     NamedRow name;
 };
 
+/// Whether two rows may be of one quantity by their units. The step of a thermometer is none of a length.
+bool may_have_one_dimension(const AuditedRow& one, const AuditedRow& other) {
+    if (one.unit == other.unit || one.unit.empty() || other.unit.empty()) {
+        return true;
+    }
+    try {
+        return gum::Unit::parse(one.unit).dimension() == gum::Unit::parse(other.unit).dimension();
+    } catch (const gum::DiagnosedError&) {
+        return false;
+    }
+}
+
 /// Readings that are all equal: they were taken, and their scatter is below the step of the display, which is the contribution
 /// then (JCGM 100:2008, F.2.2.1) and stands in the budget.
 bool are_equal_readings(const AuditedBudget& budget, const AuditedRow& row) {
-    const auto is_resolution = [](const AuditedRow& other) {
-        return other.used_u > 0.0 &&
-               (other.origin == Origin::resolution || other.contributor == Contributor::item_resolution);
+    const auto is_resolution = [&row](const AuditedRow& other) {
+        return contribution_of(other) > 0.0 &&
+               (other.origin == Origin::resolution || other.contributor == Contributor::item_resolution) &&
+               may_have_one_dimension(row, other);
     };
     return row.type_a.value_or(false) && std::max(row.readings.size(), row.n.value_or(0)) >= 2 && row.used_u == 0.0 &&
            std::any_of(budget.rows.begin(), budget.rows.end(), is_resolution);

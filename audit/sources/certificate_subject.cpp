@@ -15,6 +15,7 @@
 #include "certificate/stated_text.h"
 #include "gum/conformity/decision_rule.h"
 #include "gum/coverage.h"
+#include "gum/quantity/diagnostic.h"
 #include "gum/quantity/unit.h"
 #include "reports/dcc/dcc_certificate_data.h"
 #include "text/small_letters.h"
@@ -199,6 +200,15 @@ bool take_rule(gum::DecisionRule rule, const std::optional<double>& guard_band, 
     return false;
 }
 
+/// Whether a budget has a verdict; not where its numbers leave the range that can be evaluated.
+bool gives_verdict(const AuditedBudget& budget, const std::string& verdict) {
+    try {
+        return evaluate(budget).verdict == verdict;
+    } catch (const gum::DiagnosedError&) {
+        return false;
+    }
+}
+
 /// Of the half-widths that a rule with U may take of an interval, the one that gives the stated verdict, else the first.
 void take_half_width_of_verdict(const std::vector<double>& half_widths, double u, AuditedBudget& budget) {
     if (half_widths.empty() || !(u > 0.0) || !budget.rule || budget.claims.verdict.empty()) {
@@ -206,7 +216,7 @@ void take_half_width_of_verdict(const std::vector<double>& half_widths, double u
     }
     for (const double half_width : half_widths) {
         budget.coverage.k = half_width / u;
-        if (half_width > 0.0 && evaluate(budget).verdict == budget.claims.verdict) {
+        if (half_width > 0.0 && gives_verdict(budget, budget.claims.verdict)) {
             return;
         }
     }
@@ -298,6 +308,10 @@ AuditedBudget Results::budget_of(std::size_t position) {
     budget.correlation_variance = u * u;
     budget.digits = claims.U ? digits_of(*claims.U) : 2;
     state_conformity(q, limits_of(position), budget);
+    // Beside one limit, that of the end on its side: the whole interval lies within the limit then.
+    if (!half_widths.empty() && budget.value && budget.limits.lower.has_value() != budget.limits.upper.has_value()) {
+        half_widths.push_back(budget.limits.upper ? high->value - *budget.value : *budget.value - low->value);
+    }
     take_half_width_of_verdict(half_widths, u, budget);
     return budget;
 }

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <iterator>
 
+#include "audit/sources/table_units.h"
 #include "audit/stated_number.h"
+#include "gum/quantity/unit.h"
 #include "text/small_letters.h"
 
 namespace gumcert::audit {
@@ -42,6 +44,23 @@ std::size_t end_of_symbol(std::string_view name, std::size_t at) {
     return 0;
 }
 
+/// Whether what follows a number leaves it a pure one: no unit, no percentage and no further factor.
+bool is_of_number_one(const std::string& rest) {
+    constexpr std::string_view k_factors[] = {"/", "%", "‰", "^", "*", "·", "×", "±"};
+    if (std::any_of(std::begin(k_factors), std::end(k_factors),
+                    [&rest](std::string_view factor) { return rest.starts_with(factor); })) {
+        return false;
+    }
+    const std::size_t end = rest.find_first_of(" ,;(");
+    const std::string word = rest.substr(0, end);
+    // With more words behind it, what is written like an inch or a year is one of them.
+    constexpr std::string_view k_words[] = {"a", "am", "as", "at", "in"};
+    const bool is_word = end != std::string::npos && rest[end] == ' ' &&
+                         std::find(std::begin(k_words), std::end(k_words), word) != std::end(k_words);
+    const std::optional<gum::Unit> unit = is_word ? std::nullopt : known_unit(word);
+    return !unit || (unit->dimension().is_one() && !is_unit_of_part(word));
+}
+
 /// The number behind "r =" or "r(X; Y) =".
 std::optional<double> assigned_r(std::string_view name) {
     for (std::size_t at = 0; at < name.size(); ++at) {
@@ -59,7 +78,8 @@ std::optional<double> assigned_r(std::string_view name) {
         }
         const std::optional<LeadingNumber> number =
             read_leading_number(without_blanks(behind.substr(1)), "", Percent::unit);
-        if (number && std::abs(number->number.value) <= 1.0) {
+        // "r = 0.9 mm" is a radius, "ρ = 0.998 g/cm³" a density; and of "r = 1/2" the number behind is not 1.
+        if (number && !number->is_open && std::abs(number->number.value) <= 1.0 && is_of_number_one(number->rest)) {
             return number->number.value;
         }
     }

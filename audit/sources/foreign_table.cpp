@@ -664,11 +664,12 @@ private:
         const bool has_amount =
             numbers.contains(Column::u) || numbers.contains(Column::contribution) || numbers.contains(Column::stated);
         std::optional<double> r = words && words->r ? words->r : correlation_in(row);
-        // An uncertainty is not negative: without u and coefficient it is a term of the sum, with the sign of r.
+        // An uncertainty is not negative: without estimate, u and coefficient it is a term of the sum, with the sign of r.
         const auto term = numbers.find(Column::contribution);
         const bool is_term = words && !words->is_coefficient && term != numbers.end() && !r &&
                              sheet_.number_with_unit(*term->second).value_or(NumberWithUnit{}).number.value < 0.0 &&
-                             !numbers.contains(Column::u) && !numbers.contains(Column::stated);
+                             !numbers.contains(Column::estimate) && !numbers.contains(Column::u) &&
+                             !numbers.contains(Column::stated);
         if (!words) {  // "r" alone may be a radius or a resistance
             const bool is_constant = has_amount || numbers.contains(Column::estimate);
             r = is_constant ? std::nullopt : r;

@@ -96,10 +96,47 @@ TEST(BudgetOutcome, TakesCorrelatedRowsForOneContribution) {
     EXPECT_NEAR(evaluate(sum).nu_eff, 18.0, 1e-9) << "neither is a reason to find fault";
     EXPECT_LE(outcome_intervals(sum).nu_eff.low, 4.0 * (1.0 + 1e-9));
     EXPECT_GE(outcome_intervals(sum).nu_eff.high, 18.0 * (1.0 - 1e-9));
+    // Where all that has degrees of freedom cancels, infinitely many are allowed, as they are recomputed.
+    AuditedBudget cancelled = budget_of({row("a", 0.5, 1.0, 8.0), row("b", 0.5, -1.0, 8.0), row("c", 0.25)});
+    cancelled.correlations = {{.first = 0, .second = 1, .r = 1.0}};
+    EXPECT_TRUE(std::isinf(evaluate(cancelled).nu_eff));
+    EXPECT_TRUE(std::isinf(outcome_intervals(cancelled).nu_eff.high));
     // A row that hardly correlates does not make the others its own.
     AuditedBudget weak = budget_of({row("a", 1.0), row("b", 0.01, 1.0, 2.0)});
     weak.correlations = {{.first = 0, .second = 1, .r = 0.01}};
     EXPECT_GT(evaluate(weak).nu_eff, 1e6);
+}
+
+/// u of a difference of rows with one digit each: what the digits leave open holds all that they may have been, and not everything.
+TEST(BudgetOutcome, LeavesOpenOfTwoCorrelatedRowsWhatTheirDigitsDo) {
+    AuditedBudget budget = budget_of({row("a", 0.02), row("b", 0.02, -1.0), row("c", 0.01)});
+    for (AuditedRow& one : budget.rows) {
+        one.u_half_step = 0.005;
+    }
+    budget.correlations = {{.first = 0, .second = 1, .r = 0.9}};
+    const Interval u_c = outcome_intervals(budget).u_c;
+    EXPECT_GT(u_c.low, 0.005);
+    EXPECT_LT(u_c.high, 0.024) << "0.030 is that of independent rows";
+    for (const double sign : {-1.0, 1.0}) {
+        for (const double r : {-1.0, -0.4, 0.0, 0.3, 0.9, 1.0}) {
+            budget.correlations[0].r = r;
+            budget.rows[1].used_sensitivity = sign;
+            const Interval allowed = outcome_intervals(budget).u_c;
+            AuditedBudget exact = budget;
+            for (const double a : {0.015, 0.017, 0.02, 0.025}) {
+                for (const double b : {0.015, 0.019, 0.022, 0.025}) {
+                    for (const double c : {0.005, 0.015}) {
+                        exact.rows[0].used_u = a;
+                        exact.rows[1].used_u = b;
+                        exact.rows[2].used_u = c;
+                        const double u = evaluate(exact).u_c;
+                        EXPECT_LE(allowed.low, u * (1.0 + 1e-12)) << r << " " << sign << " " << a << " " << b;
+                        EXPECT_GE(allowed.high, u * (1.0 - 1e-12)) << r << " " << sign << " " << a << " " << b;
+                    }
+                }
+            }
+        }
+    }
 }
 
 TEST(BudgetOutcome, NeverStatesLessThanTheCapability) {

@@ -43,6 +43,20 @@ TEST(ContributorRules, B01_asks_for_the_minimum_of_every_method) {
     EXPECT_EQ(contributor_finding("B01", budget), "named without a number: repeatability");
     budget.rows[3].readings = {10.01, 10.01, 10.01};
     EXPECT_EQ(contributor_finding("B01", budget), "");
+    // The step of another quantity, as of a thermometer, is no scatter of these readings, nor is one that the sum leaves out.
+    AuditedBudget other = budget;
+    for (AuditedRow& row : other.rows) {
+        row.unit = row.contributor == Contributor::item_resolution ? "degC" : "mm";
+    }
+    EXPECT_EQ(contributor_finding("B01", other), "named without a number: repeatability");
+    for (AuditedRow& row : other.rows) {
+        row.unit = row.contributor == Contributor::item_resolution ? "um" : "mm";
+    }
+    EXPECT_EQ(contributor_finding("B01", other), "");
+    for (AuditedRow& row : other.rows) {
+        row.in_sum = row.contributor != Contributor::item_resolution;
+    }
+    EXPECT_EQ(contributor_finding("B01", other), "named without a number: repeatability");
     drop(budget, Contributor::item_resolution);
     EXPECT_THAT(contributor_finding("B01", budget), HasSubstr("named without a number: repeatability"));
 }

@@ -195,6 +195,29 @@ TEST(SubjectOfCertificate, DecidesByAnIntervalAsTheCertificateDid) {
     }
 }
 
+/// Where one limit is stated, an interval that lies within it with its nearer end passes; and numbers out of all range are no end of
+/// the audit.
+TEST(SubjectOfCertificate, DecidesByTheEndOfAnIntervalOnTheSideOfTheLimit) {
+    const auto accused = [](const std::string& low, const std::string& high, const std::string& u, const char* side,
+                            const std::string& limit_value, const std::string& verdict) {
+        const std::string interval =
+            "<si:measurementUncertaintyUnivariate><si:coverageIntervalMU><si:valueStandardMU>" + u +
+            "</si:valueStandardMU><si:intervalMin>" + low + "</si:intervalMin><si:intervalMax>" + high +
+            "</si:intervalMax><si:coverageProbability>0.95</si:coverageProbability></si:coverageIntervalMU>"
+            "</si:measurementUncertaintyUnivariate>";
+        const std::string meta =
+            "<dcc:conformity>" + verdict + "</dcc:conformity><dcc:data>" + limit(side, limit_value) + "</dcc:data>";
+        return finds(subject_of_text(document(interval, meta, rule_statement("DR-03"))), "D04");
+    };
+    const char *const upper = "basic_toleranceLimitUpper", *const lower = "basic_toleranceLimitLower";
+    EXPECT_FALSE(accused("9.60", "10.10", "0.10", upper, "10.15", "pass"));
+    EXPECT_TRUE(accused("9.60", "10.10", "0.10", upper, "10.09", "pass"));
+    EXPECT_FALSE(accused("9.60", "10.10", "0.10", lower, "9.59", "pass"));
+    EXPECT_TRUE(accused("9.60", "10.10", "0.10", lower, "9.80", "pass"));
+    EXPECT_FALSE(accused("9.60", "10.10", "0.10", lower, "9.80", "fail"));
+    EXPECT_NO_THROW(static_cast<void>(accused("-1e300", "1e300", "1e-200", upper, "10.15", "pass")));
+}
+
 TEST(SubjectOfCertificate, DecidesAgainByARuleThatIsNamed) {
     const std::string limits = "<dcc:conformity>pass</dcc:conformity><dcc:data>" +
                                limit("basic_toleranceLimitUpper", "10.20") +

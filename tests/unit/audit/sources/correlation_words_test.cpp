@@ -78,6 +78,18 @@ TEST(Correlations, LeaveTheDegreesOfFreedomOfOneContribution) {
     EXPECT_EQ(rules_of("nu_eff,,,28,,,\nk,,,2.09,,,\nU,,um,0.029,,,\n"), "");
     EXPECT_EQ(rules_of("nu_eff,,,28.8,,,\nk,,,2.09,,,\nU,,um,0.029,,,\n"), "");
     EXPECT_EQ(rules_of("nu_eff,,,4.8,,,\nk,,,2.69,,,\nU,,um,0.037,,,\n"), "S12");
+    // One source in two rows that add, whose four degrees of freedom the table states: k = 2 is a fixed k of few.
+    const std::string sum =
+        "Quantity,Estimate,Unit,u,nu,Sensitivity,Contribution\nGauge A,0,um,0.0200,4,1,0.0200\nGauge "
+        "B,0,um,0.0200,4,1,0.0200\nIndication,0,um,0.0010,9,1,0.0010\n\"r(A, B)\",0.9,,,,,\nu_c,,um,0.0390,,,\n";
+    const auto fixed_k = [&](const std::string& nu_eff) {
+        const AuditReport report = audit_of_correlated(sum + nu_eff + "k,,,2,,,\nU,,um,0.078,,,\n");
+        return std::any_of(report.findings.begin(), report.findings.end(),
+                           [](const AuditFinding& finding) { return finding.rule == "K02"; });
+    };
+    EXPECT_TRUE(fixed_k("nu_eff,,,4,,,\n"));
+    EXPECT_FALSE(fixed_k("nu_eff,,,28,,,\n"));
+    EXPECT_FALSE(fixed_k(""));
 }
 
 /// A coefficient in a cell is read with its symbol; a term with the sign of a correlation is none of the rows.
@@ -86,16 +98,35 @@ TEST(Correlations, AreStatedByTheirSymbolInACell) {
     EXPECT_EQ(stated_correlation("ρ(A; B) = -0.25"), -0.25);
     EXPECT_FALSE(stated_correlation("r = 12"));
     EXPECT_FALSE(stated_correlation("error = 0.6"));
+    // A radius, a density, a percentage and a fraction are none.
+    for (const char* const other : {"r = 0.9 mm", "r = 0.9 mm (radius)", "ρ = 0.9982 g/cm3 at 20 °C", "r = 0.9 %",
+                                    "r = 1/2", "r = 0.5 ± 0.1", "r = 0.9 in"}) {
+        EXPECT_FALSE(stated_correlation(other)) << other;
+    }
+    for (const char* const same : {"r = 0.9 (estimated)", "r = 0.9, of both", "r = 0.9 in both cells",
+                                   "r = 0.9 estimated", "r = 0.9 1", "r = 0.9 – from the certificate"}) {
+        EXPECT_EQ(stated_correlation(same), 0.9) << same;
+    }
     const std::string rows =
         "Quantity,Estimate,Unit,u,Sensitivity,Contribution\nGauge A,0,um,0.02,1,0.02\nGauge B,0,um,0.02,-1,-0.02\n"
         "Indication,0,um,0.01,1,0.01\n";
     const std::string claims = "u_c,,um,0.0134,,\nk,,,2,,\nU,,um,0.027,,\n";
+    // With an estimate it is a row, whatever its name.
+    EXPECT_EQ(audit_of_correlated(rows + "Correction of the correlation filter,0,um,,,-0.01\n" + claims).results.size(),
+              1U);
     const AuditReport named = audit_of_correlated(rows + "\"Correlation r(A; B)\",r = 0.9,,,,\n" + claims);
     ASSERT_EQ(named.results.size(), 1U);
     EXPECT_NEAR(named.results[0].recomputed.u_c, std::sqrt(1.8e-4), 1e-9);
     EXPECT_FALSE(has_critical(named));
     EXPECT_FALSE(has_critical(audit_of_correlated(rows + "Correlation of A and B,r = 0.9,,,,\n" + claims)));
     EXPECT_FALSE(has_critical(audit_of_correlated(rows + "Correlation of both gauges,r = 0.9,,,,\n" + claims)));
+    // What is no coefficient is not taken for one: u_c is asked of independent rows, as it is claimed here.
+    for (const char* const cell : {"r = 0.9 %", "r = 1.2", "r = 0.9 mm"}) {
+        const AuditReport plain = audit_of_correlated(rows + "\"Correlation r(A; B)\"," + cell +
+                                                      ",,,,\nu_c,,um,0.03,,\nk,,,2,,\nU,,um,0.06,,\n");
+        ASSERT_EQ(plain.results.size(), 1U) << cell;
+        EXPECT_NEAR(plain.results[0].recomputed.u_c, 0.03, 1e-9) << cell;
+    }
     for (const char* const term : {"Correlation,,um,,,-0.0268\n", "Correlation term,,um,,,-0.00072\n"}) {
         const AuditReport open = audit_of_correlated(rows + term + claims);
         EXPECT_TRUE(open.results.empty()) << term;
