@@ -23,22 +23,59 @@ constexpr double k_clearly = 20.0;   // of costs, where noise is as stated
 
 /// How well a table fits.
 struct Fit {
-    double cost =
-        0.0;  ///< Σ s² log(1 + r²/s²) over the residuals r of the visits, and squares of what is known beforehand
+    std::vector<double> visits;  ///< squares of the whitened residuals, one a visit
+    double known = 0.0;          ///< squares of what is known beforehand
     double unit = 1.0;  ///< variance of the noise against the stated one, by the median of the visits; 1 at least
+
+    /// Σ s² log(1 + r²/s²) over the residuals r of the visits, and squares of what is known beforehand.
+    /// \param of_noise  variance that s² is in units of: with a stated one that is far too small each visit would count as gross
+    ///                  error, and hardly any table as clearly better
+    [[nodiscard]] double cost(double of_noise) const {
+        const double squared = k_robust_scale * k_robust_scale * of_noise;
+        double sum = known;
+        for (const double squares : visits) {
+            sum += squared * std::log1p(squares / squared);
+        }
+        return sum;
+    }
 };
 
+/// By how much one fits worse, in units of the smaller noise that either leaves.
+double worse_by(const Fit& one, const Fit& other) {
+    const double noise = std::min(one.unit, other.unit);
+    return (one.cost(noise) - other.cost(noise)) / noise;
+}
+
+/// With the noise that is left and with the stated one: where these disagree neither is better.
+bool is_better(const Fit& one, const Fit& other, double by) {
+    return worse_by(other, one) > by && one.cost(1.0) < other.cost(1.0);
+}
+
+/// Whether an adjustment that begins there may end elsewhere.
+bool begins_elsewhere(const CommonFit& one, const CommonFit& other) {
+    constexpr double k_same_place = 1e-3;   // [m]
+    constexpr double k_same_set_up = 1e-3;  // [m] and [rad]
+    for (std::size_t j = 0; j < one.stations.size(); ++j) {
+        if (!((one.stations[j].position - other.stations[j].position).norm() < k_same_place)) {
+            return true;
+        }
+    }
+    return !((one.set_up - other.set_up).norm() < k_same_set_up);
+}
+
 Fit fit_at(const JointAdjustment& adjustment, double degrees_of_freedom) {
-    constexpr double k_squared = k_robust_scale * k_robust_scale;
     const NormalEquations normal = adjustment.adjustment().linearise();
     Fit fit;
     std::vector<double> of_visits;
     for (std::size_t g = 0; g < normal.groups().size(); ++g) {
         const Eigen::VectorXd& residual = normal.groups()[g].residual;
         const double squares = residual.squaredNorm();
-        const bool is_visit = g < adjustment.visits().size();
-        fit.cost += is_visit ? k_squared * std::log1p(squares / k_squared) : squares;
-        if (is_visit && residual.size() > 0) {
+        if (g >= adjustment.visits().size()) {
+            fit.known += squares;
+            continue;
+        }
+        fit.visits.push_back(squares);
+        if (residual.size() > 0) {
             of_visits.push_back(squares / static_cast<double>(residual.size()));
         }
     }
@@ -134,6 +171,10 @@ public:
         if (!fit_) {
             fit_ = fit_of(best_);
         }
+        // Of a table that repeats badly every search finds the same places: a robust adjustment takes longer than they do.
+        if (!begins_elsewhere(rival.places, best_.places) && !is_elsewhere(best_, rival)) {
+            return;
+        }
         const Fit rival_fit = fit_of(rival);
         if (contradicts_stated(measurement_, rival, best_)) {
             // The other side of what has the same distances may be where it is stated.
@@ -148,7 +189,7 @@ public:
                 std::max(k_small_inclination, adjusted_inclination(measurement_, best_))) {
             return;
         }
-        const bool better = rival_fit.cost < fit_->cost;
+        const bool better = is_better(rival_fit, *fit_, 0.0);
         others_.push_back({std::move(rival), rival_fit, kind});
         if (better) {
             std::swap(best_, others_.back().placed);
@@ -161,7 +202,9 @@ public:
         for (Other& other : others_) {
             const std::vector<Eigen::Vector3d> here = stations_in_table(best_);
             const std::vector<Eigen::Vector3d> there = stations_in_table(other.placed);
-            if (other.fit.cost - fit_->cost > k_clearly * fit_->unit || !is_elsewhere(best_, other.placed)) {
+            // What is no number fits nothing.
+            const bool fits = std::isfinite(other.fit.cost(1.0));
+            if (!fits || is_better(*fit_, other.fit, k_clearly) || !is_elsewhere(best_, other.placed)) {
                 continue;
             }
             const std::optional<double> nearer = nearer_to_stated(measurement_, here, there);
@@ -180,7 +223,7 @@ private:
     /// \param placed  becomes what the robust one leads to, where that is better
     [[nodiscard]] Fit fit_of(PlacedAdjustment& placed) const {
         const Fit fit = fit_at(placed.adjustment, degrees_of_freedom_);
-        if (fit.cost <= k_doubtful * degrees_of_freedom_) {
+        if (fit.cost(1.0) <= k_doubtful * degrees_of_freedom_) {
             return fit;
         }
         PlacedAdjustment robust = placed;
@@ -190,7 +233,7 @@ private:
         solver.robust_scale = k_robust_scale;
         (void)robust.adjustment.adjustment().solve(solver);
         const Fit without_errors = fit_at(robust.adjustment, degrees_of_freedom_);
-        if (!(without_errors.cost < fit.cost)) {
+        if (!(worse_by(without_errors, fit) < 0.0)) {
             return fit;
         }
         if (is_elsewhere(placed, robust)) {

@@ -36,8 +36,9 @@ constexpr double k_robust_scale = 10.0;
 /// by more than 10° is no rival of one that is less, nor is a table whose stations stand a decimetre farther from where they are
 /// stated.
 ///
-/// Compared are costs by Cauchy's function, in which gross errors hardly count; with none of them they are chi-squares. Clearly
-/// better is an odds ratio of 1 : 20000. Where neither is clearly better stated positions decide.
+/// Compared are costs by Cauchy's function, in which gross errors hardly count; with none of them they are chi-squares. What counts
+/// as gross is judged by the noise that is left, as a stated one may be far too small; the better one is so with the stated one as
+/// well. Clearly better is an odds ratio of 1 : 20000. Where neither is clearly better stated positions decide.
 ///
 /// \param solver              for all
 /// \param degrees_of_freedom  of each
