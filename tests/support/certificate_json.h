@@ -159,6 +159,15 @@ inline certificate::CertificateData complete_certificate_data() {
     matrix.matrix = {{0.1, 0.2}, {0.3, 0.4}};
     matrix.lookup = "next_worse";
     scope_entry("matrix", matrix);
+    Capability share;
+    share.form = "value";
+    share.unit = range.unit;
+    share.arguments = {{.name = "L", .unit = range.unit, .of = range.arguments.front().of}};
+    share.percent_of_value = 0.01;
+    scope_entry("percent_of_value", share);
+    share.percent_of_value.reset();
+    share.ppm_of_value = 10.0;
+    scope_entry("ppm_of_value", share);
 
     d.place = {
         .kind = "customer_site", .address = {.lines = {"Hall 3"}, .country = "AT"}, .description = d.place.description};
