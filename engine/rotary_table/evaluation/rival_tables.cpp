@@ -4,11 +4,13 @@
 #include <cmath>
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "engine/median.h"
 #include "engine/rotary_table/datum.h"
+#include "engine/rotary_table/start/millimetres_text.h"
 #include "engine/rotary_table/start/open_places.h"
 #include "engine/rotary_table/start/rival_places.h"
 #include "engine/rotary_table/start/start_values.h"
@@ -129,19 +131,44 @@ double adjusted_inclination(const RotaryTableMeasurement& measurement, const Pla
     }
 }
 
-/// Whether a station stands clearly farther from its stated position.
-bool contradicts_stated(const RotaryTableMeasurement& measurement, const PlacedAdjustment& rival,
-                        const PlacedAdjustment& placed) {
+/// The stations that stand clearly farther from their stated positions.
+std::vector<std::size_t> stations_off_stated(const RotaryTableMeasurement& measurement, const PlacedAdjustment& rival,
+                                             const PlacedAdjustment& placed) {
     constexpr double k_clearly_farther = 0.1;  // [m]: positions are stated to some centimetres
     const std::vector<Eigen::Vector3d> there = stations_in_table(rival);
     const std::vector<Eigen::Vector3d> here = stations_in_table(placed);
+    std::vector<std::size_t> farther;
     for (std::size_t j = 0; j < here.size(); ++j) {
         const std::optional<Eigen::Vector3d>& stated = measurement.station_start[j];
         if (stated && (there[j] - *stated).norm() > (here[j] - *stated).norm() + k_clearly_farther) {
-            return true;
+            farther.push_back(j);
         }
     }
-    return false;
+    return farther;
+}
+
+std::string in_millimetres(const Eigen::Vector3d& position) {
+    return "(" + millimetres(position[0], 0) + ", " + millimetres(position[1], 0) + ", " + millimetres(position[2], 0) +
+           ") mm";
+}
+
+/// \param stations  whose stated positions the distances refute
+[[noreturn]] void refuse_stated(const RotaryTableMeasurement& measurement, const std::vector<std::size_t>& stations,
+                                const PlacedAdjustment& better) {
+    std::string others;
+    for (std::size_t k = 1; k < stations.size(); ++k) {
+        others += (k == 1 ? "; the same holds for " : ", ") + measurement.stations[stations[k]];
+    }
+    const std::size_t j = stations.front();
+    throw gum::NoResultError(gum::Diagnostic{
+        "GC-ADJUST-0016", "station " + measurement.stations[j],
+        "it is stated near " + in_millimetres(measurement.station_start[j].value_or(Eigen::Vector3d::Zero())) +
+            ", and the distances fit clearly better with it near " + in_millimetres(stations_in_table(better)[j]) +
+            others,
+        "stated positions decide between tables that the distances fit alike, and never against the distances",
+        "compare the position with the set-up, above all its signs, and correct it in the stations file, or leave it "
+        "out",
+        gum::Severity::error});
 }
 
 /// The best one of the tables that were adjusted, and the others.
@@ -176,17 +203,21 @@ public:
             return;
         }
         const Fit rival_fit = fit_of(rival);
-        if (contradicts_stated(measurement_, rival, best_)) {
+        const bool is_another =
+            is_elsewhere(best_, rival) && adjusted_inclination(measurement_, rival) <=
+                                              std::max(k_small_inclination, adjusted_inclination(measurement_, best_));
+        if (!stations_off_stated(measurement_, rival, best_).empty()) {
             // The other side of what has the same distances may be where it is stated.
             std::optional<CommonFit> mirrored = mirrored_table(observed_, rival.places);
             if (mirrored && kind != RivalTable::nearly_mirrored) {
                 consider(*std::move(mirrored), RivalTable::nearly_mirrored);
             }
+            if (is_another && is_better(rival_fit, *fit_, k_clearly)) {
+                against_stated_.push_back({std::move(rival), rival_fit, kind});
+            }
             return;
         }
-        if (!is_elsewhere(best_, rival) ||
-            adjusted_inclination(measurement_, rival) >
-                std::max(k_small_inclination, adjusted_inclination(measurement_, best_))) {
+        if (!is_another) {
             return;
         }
         const bool better = is_better(rival_fit, *fit_, 0.0);
@@ -197,8 +228,15 @@ public:
         }
     }
 
-    /// \throws gum::NoResultError  GC-RANK-0001 where another one fits as well, and no position is stated
+    /// \throws gum::NoResultError  GC-RANK-0001 where another one fits as well, and no position is stated; GC-ADJUST-0016 where
+    ///                             another one fits clearly better, and stated positions speak against it
     void decide() {
+        for (const Other& other : against_stated_) {
+            const std::vector<std::size_t> stations = stations_off_stated(measurement_, other.placed, best_);
+            if (!stations.empty() && is_better(other.fit, *fit_, k_clearly)) {
+                refuse_stated(measurement_, stations, other.placed);
+            }
+        }
         for (Other& other : others_) {
             const std::vector<Eigen::Vector3d> here = stations_in_table(best_);
             const std::vector<Eigen::Vector3d> there = stations_in_table(other.placed);
@@ -259,6 +297,7 @@ private:
     PlacedAdjustment& best_;
     std::optional<Fit> fit_;  // of the best one, once there is another one
     std::vector<Other> others_;
+    std::vector<Other> against_stated_;  // that fit clearly better
 };
 
 }  // namespace

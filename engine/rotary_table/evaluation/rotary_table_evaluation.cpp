@@ -1322,7 +1322,8 @@ RotaryTableSolution evaluate_jointly(const RotaryTableMeasurement& measurement, 
         // an adjustment that goes astray, or like a table that nobody has.
         if (std::ranges::any_of(error.diagnostics(), [](const gum::Diagnostic& problem) {
                 return problem.code == "GC-ADJUST-0005" || problem.code == "GC-ADJUST-0015" ||
-                       problem.code == "GC-RANK-0001" || problem.code == "GC-VARIANCE-0008";
+                       problem.code == "GC-ADJUST-0016" || problem.code == "GC-RANK-0001" ||
+                       problem.code == "GC-VARIANCE-0008";
             })) {
             start_search.refuse_wrong_labels();
             start_search.refuse_interrupted_beams();

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -163,6 +164,38 @@ TEST(RivalTables, StatedPositionsDecideBetweenTablesThatFitAlike) {
     } catch (const gum::NoResultError& error) {
         EXPECT_EQ(error.diagnostics().front().code, "GC-RANK-0001");
     }
+}
+
+// Centimetres out of a plane the distances tell the sides apart: positions on the false side are refused, and right ones change
+// nothing.
+TEST(RivalTables, StatedPositionsNeverDecideAgainstTheDistances) {
+    std::size_t refused = 0;
+    for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+        const Campaign campaign = measured(ring_of_few(seed, 4, {0.045, 0.06}, 315.0, 0.0005));
+        const double plane = campaign.measurement.fixture.col(axial_coordinate(campaign.measurement.axis)).mean();
+        for (const bool mirrored : {false, true}) {
+            SCOPED_TRACE(std::to_string(seed) + (mirrored ? ", mirrored" : ""));
+            RotaryTableMeasurement measurement = campaign.measurement;
+            for (std::size_t j = 0; j < measurement.stations.size(); ++j) {
+                Eigen::Vector3d position = campaign.truth.stations[j] + Eigen::Vector3d(0.03, -0.02, 0.01);
+                if (mirrored) {
+                    double& along = position[axial_coordinate(measurement.axis)];
+                    along = 2.0 * plane - along;
+                }
+                measurement.station_start[j] = position;
+            }
+            try {
+                const RotaryTableSolution solution = evaluate_jointly(measurement, EvaluationOptions{});
+                for (std::size_t j = 0; j < solution.stations.size(); ++j) {
+                    EXPECT_LT((solution.stations[j].position - campaign.truth.stations[j]).norm(), 0.1) << j;
+                }
+            } catch (const gum::NoResultError& error) {
+                EXPECT_TRUE(mirrored) << error.diagnostics().front().code;
+                refused += error.diagnostics().front().code == "GC-ADJUST-0016" ? 1U : 0U;
+            }
+        }
+    }
+    EXPECT_GE(refused, 2U);
 }
 
 }  // namespace
