@@ -236,7 +236,7 @@ set(GUMCERT_PRIVATE_HEADERS archive/store/postgresql_connection.h archive/store/
                             engine/rotary_table/start/gross_errors.h engine/rotary_table/start/interrupted_beams.h
                             engine/rotary_table/start/no_rigid_table.h engine/rotary_table/start/wrong_labels.h
                             engine/rotary_table/start/label_hypothesis.h engine/rotary_table/start/labels_of_station.h
-                            engine/rotary_table/start/labels_of_visits.h engine/rotary_table/start/millimetres_text.h
+                            engine/rotary_table/start/labels_of_visits.h
                             engine/rotary_table/start/place_of_reflector.h engine/rotary_table/start/place_search.h
                             engine/rotary_table/start/robust_descent.h engine/rotary_table/start/selected_lengths.h
                             engine/rotary_table/start/shifted_angles.h engine/rotary_table/start/station_distances.h

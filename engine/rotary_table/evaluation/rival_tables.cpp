@@ -147,11 +147,6 @@ std::vector<std::size_t> stations_off_stated(const RotaryTableMeasurement& measu
     return farther;
 }
 
-std::string in_millimetres(const Eigen::Vector3d& position) {
-    return "(" + millimetres(position[0], 0) + ", " + millimetres(position[1], 0) + ", " + millimetres(position[2], 0) +
-           ") mm";
-}
-
 /// \param stations  whose stated positions the distances refute
 [[noreturn]] void refuse_stated(const RotaryTableMeasurement& measurement, const std::vector<std::size_t>& stations,
                                 const PlacedAdjustment& better) {

@@ -14,4 +14,9 @@ std::string millimetres(double value, int decimals) {
     return text::fixed(value, decimals);
 }
 
+std::string in_millimetres(const Eigen::Vector3d& position) {
+    return "(" + millimetres(position[0], 0) + ", " + millimetres(position[1], 0) + ", " + millimetres(position[2], 0) +
+           ") mm";
+}
+
 }  // namespace gumcert::engine

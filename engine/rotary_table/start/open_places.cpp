@@ -90,11 +90,6 @@ std::vector<Eigen::Vector3d> places_of(const CommonFit& fit) {
     return places;
 }
 
-std::string in_millimetres(const Eigen::Vector3d& position) {
-    return "(" + millimetres(position[0], 0) + ", " + millimetres(position[1], 0) + ", " + millimetres(position[2], 0) +
-           ") mm";
-}
-
 constexpr const char* k_plane_across =
     "reflectors in one plane across the axis stay in it as the table turns: the mirror image of a station sees "
     "the same distances";

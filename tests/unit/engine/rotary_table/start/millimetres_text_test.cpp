@@ -14,5 +14,9 @@ TEST(MillimetresText, IsRoundedAndAZeroHasNoSign) {
     EXPECT_EQ(millimetres(-1e-4, 0), "0");
 }
 
+TEST(MillimetresText, OfAPositionNamesItsUnit) {
+    EXPECT_EQ(in_millimetres({1.1834, -0.0001, -1.0556}), "(1183, 0, -1056) mm");
+}
+
 }  // namespace
 }  // namespace gumcert::engine
