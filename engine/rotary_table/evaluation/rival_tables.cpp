@@ -150,16 +150,12 @@ std::vector<std::size_t> stations_off_stated(const RotaryTableMeasurement& measu
 /// \param stations  whose stated positions the distances refute
 [[noreturn]] void refuse_stated(const RotaryTableMeasurement& measurement, const std::vector<std::size_t>& stations,
                                 const PlacedAdjustment& better) {
-    std::string others;
-    for (std::size_t k = 1; k < stations.size(); ++k) {
-        others += (k == 1 ? "; the same holds for " : ", ") + measurement.stations[stations[k]];
-    }
     const std::size_t j = stations.front();
     throw gum::NoResultError(gum::Diagnostic{
         "GC-ADJUST-0016", "station " + measurement.stations[j],
         "it is stated near " + in_millimetres(measurement.station_start[j].value_or(Eigen::Vector3d::Zero())) +
             ", and the distances fit clearly better with it near " + in_millimetres(stations_in_table(better)[j]) +
-            others,
+            others_alike(measurement, stations),
         "stated positions decide between tables that the distances fit alike, and never against the distances",
         "compare the position with the set-up, above all its signs, and correct it in the stations file, or leave it "
         "out",

@@ -97,16 +97,12 @@ constexpr const char* k_plane_across =
 [[noreturn]] void refuse_sides(const RotaryTableMeasurement& measurement, const std::vector<StationFit>& fits,
                                const std::vector<std::size_t>& open, const std::vector<Eigen::Vector3d>& image,
                                const std::string& rule) {
-    std::string others;
-    for (std::size_t k = 1; k < open.size(); ++k) {
-        others += (k == 1 ? "; the same holds for " : ", ") + measurement.stations[open[k]];
-    }
     const std::size_t j = open.front();
     const std::string axis(1, "xyz"[axial_coordinate(measurement.axis)]);
     throw gum::NoResultError(gum::Diagnostic{
         "GC-RANK-0001", "station " + measurement.stations[j],
         "its distances fit a position near " + in_millimetres(fits[j].position) + " and one near " +
-            in_millimetres(image[j]) + " alike" + others,
+            in_millimetres(image[j]) + " alike" + others_alike(measurement, open),
         rule,
         "state on which side the station stands, with its position to some centimetres in the stations file, or "
         "raise alternate holders by 50 mm along " +
@@ -243,6 +239,14 @@ std::optional<double> nearer_to_stated(const RotaryTableMeasurement& measurement
         }
     }
     return told_apart ? std::optional<double>(nearer) : std::nullopt;
+}
+
+std::string others_alike(const RotaryTableMeasurement& measurement, const std::vector<std::size_t>& stations) {
+    std::string others;
+    for (std::size_t k = 1; k < stations.size(); ++k) {
+        others += (k == 1 ? "; the same holds for " : ", ") + measurement.stations[stations[k]];
+    }
+    return others;
 }
 
 void refuse_either(const RotaryTableMeasurement& measurement, const std::vector<Eigen::Vector3d>& found,

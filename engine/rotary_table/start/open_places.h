@@ -2,7 +2,9 @@
 
 #include <Eigen/Core>
 
+#include <cstddef>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "engine/rotary_table/start/common_set_up.h"
@@ -31,6 +33,10 @@ void settle_open_places(const ObservedStations& observed, CommonFit& found);
 [[nodiscard]] std::optional<double> nearer_to_stated(const RotaryTableMeasurement& measurement,
                                                      const std::vector<Eigen::Vector3d>& found,
                                                      const std::vector<Eigen::Vector3d>& other);
+
+/// "; the same holds for P2, P3": what a message says of the first of some stations, of the others; "" of one alone.
+[[nodiscard]] std::string others_alike(const RotaryTableMeasurement& measurement,
+                                       const std::vector<std::size_t>& stations);
 
 /// What a table is to one that fits as well.
 enum class RivalTable {

@@ -226,5 +226,12 @@ TEST(OpenPlaces, AUsualLayoutHasNone) {
     }
 }
 
+TEST(OpenPlaces, OtherStationsAreNamedBehindTheFirst) {
+    RotaryTableMeasurement measurement;
+    measurement.stations = {"P1", "P2", "P3", "P4"};
+    EXPECT_EQ(others_alike(measurement, {2}), "");
+    EXPECT_EQ(others_alike(measurement, {0, 1, 3}), "; the same holds for P2, P4");
+}
+
 }  // namespace
 }  // namespace gumcert::engine
