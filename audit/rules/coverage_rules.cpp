@@ -614,8 +614,9 @@ void one_term(const AuditSubject& subject, FindingCollector& findings) {
         for (std::size_t r = 0; r < budget.rows.size() && budget.rows.size() > 1; ++r) {
             const AuditedRow& row = budget.rows[r];
             // Of what the rows add up to: a claim beyond them has no shares.
-            const double part =
-                row.in_sum ? row.used_sensitivity * row.used_u * budget.u_c_over_rows / outcome.u_c : 0.0;
+            const double part = row.in_sum ? row.used_sensitivity * row.used_u * budget.u_c_over_rows *
+                                                 budget.within_digits / outcome.u_c
+                                           : 0.0;
             // More than the whole is a row whose correlations nobody states.
             if (part * part <= k_share || part * part > 1.0 + k_beyond) {
                 continue;
