@@ -169,6 +169,26 @@ TEST(AuditViewOfABudget, WordPercentageAndBothNumbersOfAChangeNeverContradictEac
     EXPECT_GT(left_open, 50U);
 }
 
+TEST(AuditViewOfABudget, DoesNotRecomputeTheDegreesOfFreedomOfAResultWithoutRows) {
+    audit::AuditedBudget budget = test::budget_of({});
+    budget.correlation_variance = 0.25;
+    budget.coverage = {.kind = audit::CoverageRule::Kind::fixed, .k = 2.37};
+    budget.claims.U = test::printed("1.2");
+    budget.claims.nu_eff = test::printed("8");
+    const auto result_of = [](const audit::AuditedBudget& one) {
+        return view_of(audit::audit(test::subject_of(one), {})).files.at(0).results.at(0);
+    };
+    const AuditedResultView result = result_of(budget);
+    EXPECT_EQ(result.claimed.nu_eff, "8");
+    EXPECT_TRUE(result.claim_nu_eff.allowed);
+    EXPECT_EQ(result.recomputed.nu_eff, "–");
+    EXPECT_EQ(result.audited.nu_eff, "–");
+    EXPECT_EQ(result.nu_eff.low, "–");
+    EXPECT_EQ(result.nu_eff.high, "–");
+    budget.claims.nu_eff.reset();
+    EXPECT_EQ(result_of(budget).claimed.nu_eff, "–");
+}
+
 TEST(AuditViewOfABudget, SortsRowsByTheirShareAndTiesFindingsToThem) {
     const AuditView view = view_of(test::sample_audit());
     const AuditedResultView& result = view.files[0].results[0];
