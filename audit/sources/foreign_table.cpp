@@ -655,6 +655,13 @@ private:
         const std::string name = sheet_.words(*row.front());
         const std::optional<CorrelationWords> words = correlation_words(name);
         const NumbersUnderHeads numbers = numbers_under(sheet_, *heads_, row);
+        if (!words && numbers.empty() && name.find(' ') != std::string::npos) {
+            // A note. "r = 0.9" in it may be of two rows, or of a regression: it is no correlation of the sum, and asked where it would explain it.
+            if (const std::optional<double> r = stated_correlation(name); r && *r != 0.0) {
+                budget_.unread_correlations.push_back(*r);
+            }
+            return false;
+        }
         const auto shape = heads_->columns.find(Column::distribution);
         const Cell* shape_cell = shape == heads_->columns.end() ? nullptr : cell_in(row, shape->second);
         if ((!words && name != "r") || numbers.contains(Column::sensitivity) || numbers.contains(Column::divisor) ||

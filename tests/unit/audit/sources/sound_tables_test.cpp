@@ -228,5 +228,51 @@ TEST(SoundTables, ACertifiedRowIsTheReferenceOfABudgetWithoutChecklist) {
     EXPECT_TRUE(has(table(""), "B01"));
 }
 
+TEST(SoundTables, AskOfACorrelationThatANoteStates) {
+    const std::string heads = "Quantity,Estimate,Unit,u,nu,Sensitivity,Contribution\n",
+                      rows =
+                          "Standard gauge A,0,um,0.02,50,1,0.02\nStandard gauge B,0,um,0.02,50,-1,-0.02\n"
+                          "Indication,0,um,0.01,9,1,0.01\nResolution,0,um,0.003,inf,1,0.003\n",
+                      note = "\"Note: A and B were calibrated together, r = 0.9\"\n";
+    for (const std::string& claims :
+         {std::string("u_c,,um,0.0137\nk,,,2\nU,,um,0.027\n"), std::string("k,,,2\nU,,um,0.027\n")}) {
+        for (const std::string& table : {heads + rows + note + claims, heads + rows + claims + note}) {
+            const AuditReport report = audited_text(table);
+            EXPECT_FALSE(report.has_critical()) << table;
+            EXPECT_TRUE(has(report, "K01")) << "it is asked";
+        }
+        EXPECT_TRUE(audited_text(heads + rows + claims).has_critical());
+        // Of a regression, it explains nothing; and a note is no row.
+        EXPECT_TRUE(audited_text(heads + rows + "\"Note: the regression has r = 0.3\"\n" + claims).has_critical());
+    }
+    const AuditReport sound =
+        audited_text(heads + rows + "\"Note: the regression has r = 0.999\"\nu_c,,um,0.0301\nk,,,2\nU,,um,0.060\n");
+    EXPECT_FALSE(has(sound, "K01"));
+}
+
+TEST(SoundTables, StateDegreesOfFreedomInTheDistributionAndReadingsWithAnAdjective) {
+    const auto table = [](const std::string& distribution, const std::string& name) {
+        return audited_text(
+            "quantity,unit,U or a,divisor,distribution,u,sensitivity,contribution\n"
+            "Reference standard,V,0.020,2,normal,0.010,1,0.010\n" +
+            name + ",V,0.006,1,\"" + distribution +
+            "\",0.006,1,0.006\nResolution,V,0.005,1.732,rectangular,0.00289,1,0.00289\nu_c,V,0.0120\nk,,2\nU,V,0."
+            "024\n");
+    };
+    for (const char* const distribution :
+         {"t (9)", "t(9)", "t, ν = 9", "Student's t (9)", "t-distribution (9)", "t, 9 degrees of freedom"}) {
+        EXPECT_EQ(table(distribution, "Repeatability").subject.budgets.at(0).rows.at(1).used_nu, 9.0) << distribution;
+    }
+    for (const char* const distribution : {"t", "t (2)", "t (95 %)", "normal (9)", "t (k = 3)"}) {
+        EXPECT_TRUE(std::isinf(table(distribution, "Repeatability").subject.budgets.at(0).rows.at(1).used_nu))
+            << distribution;
+    }
+    for (const char* const name : {"Repeatability (5 equal readings)", "Wiederholbarkeit (5 gleiche Ablesungen)",
+                                   "Repeatability of 5 independent measurements"}) {
+        EXPECT_EQ(table("normal", name).subject.budgets.at(0).rows.at(1).n, 5U) << name;
+    }
+    EXPECT_FALSE(table("normal", "Repeatability (5 kg load)").subject.budgets.at(0).rows.at(1).n);
+}
+
 }  // namespace
 }  // namespace gumcert::audit
