@@ -555,11 +555,12 @@ private:
     /// without its ±.
     void take_value_for_stated(std::uint32_t line) {
         const auto has = [this](Column column) { return heads_->columns.contains(column); };
-        if (has(Column::stated) || !has(Column::estimate) || !has(Column::divisor)) {
+        if (!has(Column::estimate) || !has(Column::divisor)) {
             return;
         }
-        std::size_t quotients = 0, others = 0;
+        std::size_t quotients = 0, others = 0, stated = 0;
         each_row_below(line, [&](const SheetView::Row& row) {
+            stated += has(Column::stated) && number_below(row, Column::stated) ? 1U : 0U;
             const std::optional<StatedNumber> value = number_below(row, Column::estimate),
                                               divisor = number_below(row, Column::divisor),
                                               c = number_below(row, Column::sensitivity);
@@ -572,7 +573,11 @@ private:
             const double weighted = c ? part * std::abs(c->value) : part;
             ++(is_printed_as(*u, part) || is_printed_as(*u, weighted) ? quotients : others);
         });
-        if (quotients > 1 && quotients > 2 * others) {
+        // A column "±" of nothing but blanks heads none.
+        if (stated == 0 && quotients > 1 && quotients > 2 * others) {
+            heads_->columns.erase(Column::stated);
+            heads_->units.erase(Column::stated);
+            heads_->unit_columns.erase(Column::stated);
             rename_column(Column::estimate, Column::stated);
         }
     }

@@ -274,5 +274,47 @@ TEST(SoundTables, StateDegreesOfFreedomInTheDistributionAndReadingsWithAnAdjecti
     EXPECT_FALSE(table("normal", "Repeatability (5 kg load)").subject.budgets.at(0).rows.at(1).n);
 }
 
+TEST(SoundTables, AreHeadedBySourceAndStateUInTheUnitOfALength) {
+    for (const char* const head : {"Source", "No.,Source"}) {
+        const std::string before = std::string_view(head) == "Source" ? "" : "1,";
+        const AuditReport report = audited_text(
+            std::string(head) + ",Standard uncertainty (mm)\n" + before + "Reference certificate,0.015\n" + before +
+            "Resolution,0.0029\n" + before + "Repeatability,0.004\n" + before +
+            "Temperature,0.0115\nExpanded uncertainty U (k = 2) in mm," + (before.empty() ? "" : ",") + "0.039\n");
+        ASSERT_EQ(report.results.size(), 1U) << head;
+        EXPECT_NEAR(report.results[0].recomputed.U, 0.0391, 1e-4) << head;
+    }
+    const auto stated = [](const std::string& unit) {
+        return audited_text("Quantity,u / " + unit + ",c,Contribution / " + unit +
+                            "\nReference,0.010,1,0.010\nDrift,0.006,1,0.006\n"
+                            "Repeatability,0.005,1,0.005\nu_c / " +
+                            unit + ",,,0.0127\nk,,,2\nU / " + unit + ",,,0.025\n");
+    };
+    for (const char* const unit : {"mm", "K", "mg", "N·m", "dB"}) {
+        ASSERT_TRUE(stated(unit).subject.budgets.at(0).claims.U) << unit;
+        EXPECT_EQ(stated(unit).subject.budgets[0].claims.U->value, 0.025) << unit;
+    }
+    EXPECT_FALSE(stated("mV").subject.budgets.at(0).claims.U) << "it may be a voltage";
+    // Readings to the left of a table, and numbers of its rows, are none of its results.
+    for (const char* const head : {"Readings", "No.", "Datum"}) {
+        const AuditReport right = audited_text(
+            std::string(head) +
+            ",,Quantity,u / mm,c,Contribution / mm\n10.01,,Reference,0.010,1,0.010\n"
+            "10.02,,Drift,0.006,1,0.006\n10.03,,Repeatability,0.005,1,0.005\n10.01,,u_c,,,0.0127\n10.02,,k,,,2\n"
+            "10.03,,Expanded uncertainty,,,0.025\n");
+        ASSERT_EQ(right.results.size(), 1U) << head;
+        EXPECT_FALSE(has(right, "K01")) << head;
+        EXPECT_EQ(right.results[0].claimed.U, 0.025) << head;
+        EXPECT_EQ(right.results[0].claimed.u_c, 0.0127) << head;
+    }
+    // A column "±" without a number is none, and the values are what is divided.
+    const AuditReport blank = audited_text(
+        "Source,Value,±,Unit,Distribution,Divisor,ui,ci,ci·ui\nReference calibration,0.02,,K,normal,2,0.01,1,0.01\n"
+        "Drift,0.01,,K,rectangular,1.732,0.00577,1,0.00577\nStability,0.015,,K,rectangular,1.732,0.00866,1,0.00866\n"
+        "Combined standard uncertainty,,,K,,,,,0.0144\nk,,,,,,,,2\nExpanded uncertainty,,,K,,,,,0.029\n");
+    EXPECT_FALSE(has(blank, "U23"));
+    EXPECT_EQ(blank.subject.budgets.at(0).rows.at(0).stated->value, 0.02);
+}
+
 }  // namespace
 }  // namespace gumcert::audit
