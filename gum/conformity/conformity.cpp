@@ -43,8 +43,9 @@ public:
           limits_that_can_be_passed_(limits),
           population_(stated_population(parameters, limits)) {
         decision_.rule = rule;
-        is_bounded_ =
-            bounded(limits_that_can_be_passed_.lower, true) | bounded(limits_that_can_be_passed_.upper, false);
+        const bool is_lower_bounded = bounded(limits_that_can_be_passed_.lower, true),
+                   is_upper_bounded = bounded(limits_that_can_be_passed_.upper, false);
+        is_bounded_ = is_lower_bounded || is_upper_bounded;
         if (limits.two_sided()) {
             half_ = 0.5 * (*limits.upper - *limits.lower);
             decision_.test_uncertainty_ratio = half_ / y.expanded_uncertainty;
