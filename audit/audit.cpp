@@ -30,17 +30,39 @@ double stated_step_of(const StatedNumber& number) {
     return 2.0 * (number.half_step > 0.0 ? number.half_step : printed_half_step(number));
 }
 
+/// Whether the claims of a table follow from its rows by the rule of coverage that it is evaluated with, so far as the digits of
+/// the rows tell.
+bool claims_follow(const AuditedBudget& budget, const BudgetOutcome& evaluated) {
+    const ClaimCheck check = check_claims(budget);
+    constexpr double k_same = 1e-9;
+    return check.allowed && !check.u_c_outside && !check.U_outside && !check.nu_eff_outside &&
+           std::abs(evaluate(budget, check.coverage).k - evaluated.k) <= k_same * evaluated.k;
+}
+
 void note_uncorrected_U(AuditedBudget& budget) {
     budget.uncorrected_U.reset();
+    budget.within_digits = 1.0;
     if (!budget.claims.U || !(budget.claims.U->value > 0.0) || !budget.claims.broken.U.empty()) {
         return;
     }
     const StatedNumber& U = *budget.claims.U;
     try {
-        const UncorrectedU found{.stated = U.value,
-                                 .evaluated = evaluate(budget).U,
-                                 .step = U.text.empty() ? 0.0 : stated_step_of(U),
-                                 .text = U.text.empty() ? "" : text_of_claim(U)};
+        const BudgetOutcome evaluated = evaluate(budget);
+        UncorrectedU found{.stated = U.value,
+                           .evaluated = evaluated.U,
+                           .step = U.text.empty() ? 0.0 : stated_step_of(U),
+                           .text = U.text.empty() ? "" : text_of_claim(U)};
+        // u_c and k that were rounded on the way move U by two units at most, which is little where U has three digits.
+        constexpr double k_little = 0.01;
+        const double off = std::abs(found.stated - found.evaluated);
+        const bool is_rounding =
+            (found.stated - found.step <= found.evaluated && found.evaluated <= found.stated + 0.5 * found.step) ||
+            (off <= 2.0 * found.step && off <= k_little * found.stated);
+        if (!is_rounding && found.evaluated > 0.0 && !found.text.empty() && !budget.evaluated_here &&
+            !budget.computed_claims && !evaluated.at_capability && claims_follow(budget, evaluated)) {
+            budget.within_digits = found.stated / found.evaluated;
+            found.evaluated = evaluate(budget).U;
+        }
         // u_c and k that were rounded on the way move U by two units at most.
         const double step = std::max(found.step, std::pow(10.0, std::floor(std::log10(U.value)) - budget.digits + 1));
         if (found.evaluated > 0.0 && std::abs(found.stated - found.evaluated) <= 2.0 * step) {
@@ -359,7 +381,7 @@ AuditReport audit(AuditSubject subject, std::span<const Rule> rules) {
             AuditedBudget of_rows = budget;
             // What the rows alone give, beside what is claimed: their ratio is what no row explains, and other
             // corrections keep it.
-            of_rows.u_c_over_rows = of_rows.k_over_rows = of_rows.U_over_k_u_c = 1.0;
+            of_rows.u_c_over_rows = of_rows.k_over_rows = of_rows.U_over_k_u_c = of_rows.within_digits = 1.0;
             result.recomputed = evaluate(of_rows);
             const BudgetOutcome evaluated = evaluate(budget);
             result.claimed = claimed_outcome(budget, evaluated);

@@ -257,6 +257,9 @@ struct AuditedBudget {
     /// ν_eff of the rows, and U of the claim over k u_c. 1 where rows and claims agree within their rounding; a finding of
     /// its own (K01) where they do not. They stay while other findings are corrected.
     double u_c_over_rows = 1.0, k_over_rows = 1.0, U_over_k_u_c = 1.0;
+    /// The claimed U over that of the rows, where the digits of the rows leave it open and it is no rounding of the latter: the
+    /// laboratory computed with digits that the table does not print. Set by the audit; it stays while findings are corrected.
+    double within_digits = 1.0;
     /// Evaluated by this program from its measurement model: sensitivities, sum and k come from there and need no second
     /// look; what was stated of the inputs does.
     bool evaluated_here = false;

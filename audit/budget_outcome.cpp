@@ -294,16 +294,47 @@ bool is_rounded_as_stated(const AuditedBudget& budget, const UncorrectedU& befor
                                             : before.stated <= U && U <= before.evaluated + 0.5 * step;
 }
 
+/// Whether U is no other number than what is stated, at the last digit of that: 0.02 is stated where the rows give 0.0234, and
+/// 0.022 is no change of it. What is stated may have been rounded up.
+bool is_within_statement(const UncorrectedU& before, double U) {
+    constexpr double k_half = 0.5 * (1.0 + 1e-9);
+    const double below =
+        before.stated - (before.evaluated < before.stated - k_half * before.step ? 1.0 : k_half) * before.step;
+    const bool is_between =
+        std::min(before.stated, before.evaluated) <= U && U <= std::max(before.stated, before.evaluated);
+    return is_between || (before.step > 0.0 && below <= U && U <= before.stated + k_half * before.step);
+}
+
+/// Significant digits of a corrected U: those of the budget, or to the last place of the U that is stated, which would else be
+/// told of another number than it is: 2.05 and not 2.0.
+int printed_digits(const AuditedBudget& budget, const UncorrectedU* before, double U) {
+    constexpr int k_most_digits = 6;
+    if (before == nullptr || before->text.empty() || !(before->step > 0.0) || !(U > 0.0)) {
+        return budget.digits;
+    }
+    const double digits = std::floor(std::log10(U)) - std::round(std::log10(before->step)) + 1.0;
+    return digits > budget.digits && digits <= k_most_digits ? static_cast<int>(digits) : budget.digits;
+}
+
 void print(const AuditedBudget& budget, BudgetOutcome& outcome) {
     constexpr double k_unchanged = 5e-4;  // what prints as 0.0 %
-    const std::optional<UncorrectedU>& before = budget.uncorrected_U;
-    const bool is_as_stated = before && is_rounded_as_stated(budget, *before, outcome.U);
-    const gum::RoundedPair printed = gum::round_to_uncertainty(
-        outcome.value.value_or(0.0), is_as_stated ? before->stated : outcome.U, budget.digits, budget.rounding);
+    const UncorrectedU* before = budget.uncorrected_U ? &*budget.uncorrected_U : nullptr;
+    const bool has_text = before != nullptr && !before->text.empty();
+    const bool is_stated = has_text && (std::abs(outcome.U / before->evaluated - 1.0) < k_unchanged ||
+                                        is_within_statement(*before, outcome.U));
+    const bool is_as_stated =
+        before != nullptr &&
+        (is_rounded_as_stated(budget, *before, outcome.U) ||
+         (is_stated && before->step > step_of_digits(before->stated, budget.digits) * (1.0 + 1e-9)));
+    const double value = outcome.value.value_or(0.0), U = is_as_stated ? before->stated : outcome.U;
+    const gum::RoundedPair printed = gum::round_to_uncertainty(value, U, budget.digits, budget.rounding);
     outcome.printed_value = outcome.value ? printed.value : "";
     outcome.printed_U = outcome.rounded_U = printed.U;
-    if (before && !before->text.empty() && std::abs(outcome.U / before->evaluated - 1.0) < k_unchanged) {
+    outcome.is_held_against_statement = has_text;
+    if (is_stated) {
         outcome.printed_U = before->text;
+    } else if (!is_as_stated) {
+        outcome.printed_U = gum::round_to_uncertainty(value, U, printed_digits(budget, before, U), budget.rounding).U;
     }
 }
 
@@ -334,7 +365,7 @@ BudgetOutcome evaluate(const AuditedBudget& budget, const CoverageRule& coverage
                                   .action = "state u and sensitivity of the rows; check the correlations"});
     }
     const double u_of_rows = std::sqrt(variance);
-    outcome.u_c = u_of_rows * budget.u_c_over_rows;
+    outcome.u_c = u_of_rows * budget.u_c_over_rows * budget.within_digits;
     // From the rows: what a claimed u_c has beyond them has no degrees of freedom that anybody stated.
     outcome.nu_eff =
         effective_degrees_of_freedom(budget, coverage.correlated, of_tangent > 0.0 ? std::sqrt(of_tangent) : u_of_rows);

@@ -27,8 +27,10 @@ struct BudgetOutcome {
     /// U to the digits of the budget, in which a change is seen; `printed_U` may have the digits of a statement.
     std::string rounded_U;
     double stated_step =
-        0.0;              ///< of a U that somebody stated: one unit of its last printed digit; 0 of one computed here
-    std::string verdict;  ///< "" without limits, rule or value
+        0.0;  ///< of a U that somebody stated: one unit of its last printed digit; 0 of one computed here
+    /// `printed_U` is what is stated wherever U is no other number than that: another text is another number.
+    bool is_held_against_statement = false;
+    std::string verdict;       ///< "" without limits, rule or value
     std::optional<double> en;  ///< the largest by its amount; none without value or reference
     /// Why there is no decision, or no E_n although there is a reference. u_c, ν_eff, k and U do not rest on either.
     std::vector<gum::Diagnostic> undecided;

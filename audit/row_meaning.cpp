@@ -345,9 +345,14 @@ std::optional<std::size_t> count_of_readings(const Pieces& pieces) {
                 return count;
             }
         }
-        if (piece.kind == Piece::Kind::number &&
-            follows(1, {"reading", "measurement", "repetition", "repeat", "messung", "ablesung", "wiederholung",
-                        "einzelmess", "observation"})) {
+        const auto counts_readings = [&](std::size_t ahead) {
+            return follows(ahead, {"reading", "measurement", "repetition", "repeat", "messung", "ablesung",
+                                   "wiederholung", "einzelmess", "observation"});
+        };
+        const bool is_qualified =
+            follows(1, {"equal", "identical", "single", "repeated", "independent", "successive", "consecutive",
+                        "gleich", "identisch", "einzeln", "wiederholt", "unabhangig", "aufeinanderfolgend"});
+        if (piece.kind == Piece::Kind::number && (counts_readings(1) || (is_qualified && counts_readings(2)))) {
             if (const std::optional<std::size_t> count = count_of(piece)) {
                 return count;
             }
@@ -378,6 +383,33 @@ std::optional<double> degrees_of_freedom(const Pieces& pieces) {
         }
     }
     return std::nullopt;
+}
+
+/// Degrees of freedom behind the name of a distribution: "t (9)", "t, ν = 9", "Student's t (9)". The number in "t (2)" may be a
+/// factor, and that in "t (95 %)" is a probability.
+std::optional<double> degrees_of_freedom_of_t(const Pieces& pieces) {
+    if (const std::optional<double> nu = degrees_of_freedom(pieces)) {
+        return nu;
+    }
+    constexpr double k_fewest = 3.0, k_most = 1e6;
+    std::optional<double> only;
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+        const Piece& piece = pieces[i];
+        if (!piece.is_number()) {
+            const bool is_name = piece.kind == Piece::Kind::sign || piece.raw == "t" || piece.raw == "s" ||
+                                 piece.begins("student") || piece.begins("distrib") || piece.begins("verteil");
+            if (!is_name || piece.is_sign("=")) {
+                return std::nullopt;
+            }
+            continue;
+        }
+        if (only || i == 0 || piece.percent || piece.plus_minus || !piece.unit.empty() || piece.value < k_fewest ||
+            piece.value > k_most || piece.value != std::floor(piece.value)) {
+            return std::nullopt;
+        }
+        only = piece.value;
+    }
+    return only;
 }
 
 /// "pooled s = 0.12 µm".
@@ -628,7 +660,10 @@ Shape shape_of(std::string_view text) {
     if (words.has_any({"rec ", "uniform", "gleich", "square", "recht"})) {
         return Shape::rectangular;
     }
-    if (raw == "t" || words.has_any({"t faktor", "t factor"})) {
+    // "t (9)" and "t, ν = 9" are "t"; "T" may be of a triangle.
+    const bool is_t = raw == "t" || (raw.size() > 1 && raw[0] == 't' &&
+                                     std::string_view(" (,;_").find(raw[1]) != std::string_view::npos);
+    if (is_t || words.has_any({"t faktor", "t factor"})) {
         return Shape::student_t;
     }
     if (words.has_any({"lognorm", "log norm"})) {
@@ -700,6 +735,11 @@ void read_comment(AuditedRow& row) {
     }
     if (!row.nu) {
         if (const std::optional<double> nu = degrees_of_freedom(texts.front())) {
+            row.nu = exact_number(*nu, row.place);
+        }
+    }
+    if (!row.nu && row.shape == Shape::student_t) {
+        if (const std::optional<double> nu = degrees_of_freedom_of_t(pieces_of(row.shape_text, row.decimal_sign))) {
             row.nu = exact_number(*nu, row.place);
         }
     }

@@ -24,9 +24,10 @@ FindingSeverity severity_of(const Effect& effect) {
 std::string direction_in_words(const BudgetOutcome& claimed, const BudgetOutcome& corrected) {
     // Two texts may differ in digits and signs alone: 0.06, 0,06 and 0.060.
     constexpr double k_half = 0.5 * (1.0 + 1e-9);
-    if (claimed.printed_U == corrected.printed_U ||
-        (claimed.stated_step > 0.0 ? std::abs(claimed.U - corrected.U) <= k_half * claimed.stated_step
-                                   : claimed.rounded_U == corrected.rounded_U)) {
+    const bool is_same_text = claimed.printed_U == corrected.printed_U;
+    const bool is_same = claimed.stated_step > 0.0 ? std::abs(claimed.U - corrected.U) <= k_half * claimed.stated_step
+                                                   : claimed.rounded_U == corrected.rounded_U;
+    if (is_same_text || (is_same && !corrected.is_held_against_statement)) {
         return "U unchanged";
     }
     return corrected.U > claimed.U ? "U understated" : "U overstated";

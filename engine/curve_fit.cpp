@@ -12,6 +12,7 @@
 
 #include "gum/quantity/dense_factors.h"
 #include "gum/quantity/diagnostic.h"
+#include "text/counts.h"
 #include "text/numbers.h"
 
 namespace gumcert::engine {
@@ -663,7 +664,7 @@ Attempt best_of(std::vector<Attempt> attempts, const std::vector<std::string>& n
         require_rank(lowest->at, names);
         throw gum::NoResultError(diagnostic(
             "GC-FIT-0011", "curve fit",
-            "not converged after " + std::to_string(iterations) + " iterations: sum of squares " +
+            "not converged after " + text::count_of(iterations, "iteration") + ": sum of squares " +
                 text::shortest(static_cast<double>(lowest->at.sum)) + ", length of the next step " +
                 text::shortest(static_cast<double>(lowest->offset)),
             "a result is given only where the next step is shorter than " +
@@ -701,7 +702,7 @@ public:
         }
         if (data.x.rows() != n_ || data.x.cols() < 1) {
             add("GC-FIT-0001", "x", size_text(data.x.rows(), data.x.cols()) + " values",
-                "x needs a row for each of the " + std::to_string(n_) + " values of y and at least 1 column",
+                "x needs a row for each value of y (" + std::to_string(n_) + ") and at least 1 column",
                 "Give x and y in pairs.");
         }
         check_finite(data.x, "x");
@@ -709,7 +710,7 @@ public:
         check_uncertainty(data.y_uncertainty, "uncertainty of y");
         check_uncertainty(data.x_uncertainty, "uncertainty of x");
         if (data.x_uncertainty.size() > 0 && data.x.cols() > 1) {
-            add("GC-FIT-0007", "uncertainty of x", "stated for " + std::to_string(data.x.cols()) + " regressors",
+            add("GC-FIT-0007", "uncertainty of x", "stated for " + text::count_of(data.x.cols(), "regressor"),
                 "uncertain abscissae are possible for a curve of one variable only",
                 "Leave the uncertainty of x out where it is small, or fit each variable by itself.");
         }
@@ -720,7 +721,7 @@ public:
         // s² is a sum over n − p: with n = p nothing scatters.
         const bool scaled = data.scale_by_residuals || data.y_uncertainty.size() == 0;
         if (p > 0 && n_ < p + (scaled ? 1 : 0)) {
-            add("GC-FIT-0003", "curve fit", std::to_string(n_) + " points for " + std::to_string(p) + " parameters",
+            add("GC-FIT-0003", "curve fit", text::count_of(n_, "point") + " for " + text::count_of(p, "parameter"),
                 scaled ? "an uncertainty taken from residuals needs more points than parameters"
                        : "a fit needs at least as many points as parameters",
                 "Measure at more points, or leave out a parameter.");
@@ -728,7 +729,7 @@ public:
         if (!linear) {
             if (start.size() != p) {
                 add("GC-FIT-0006", "start values",
-                    std::to_string(start.size()) + " for " + std::to_string(p) + " parameters",
+                    std::to_string(start.size()) + " for " + text::count_of(p, "parameter"),
                     "a curve that is not linear needs a start value for each parameter",
                     "Give a rough value of each parameter.");
             } else {

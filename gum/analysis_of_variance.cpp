@@ -9,6 +9,7 @@
 #include "gum/argument_check.h"
 #include "gum/coverage.h"
 #include "gum/quantity/diagnostic.h"
+#include "text/counts.h"
 #include "text/numbers.h"
 
 namespace gumcert::gum {
@@ -127,7 +128,7 @@ Real root_of_square(Real square) {
 
 void require_groups(std::size_t groups) {
     if (groups < 2) {
-        refuse("GC-GUM-0070", "analysis of variance", std::to_string(groups) + " groups",
+        refuse("GC-GUM-0070", "analysis of variance", text::count_of(groups, "group"),
                "groups are compared with each other: at least 2 are needed", "Give more groups.");
     }
 }
@@ -279,7 +280,7 @@ NestedAnalysis nested_analysis(std::span<const std::vector<std::vector<double>>>
     }
     if (!even || result.groups < 2 || result.subgroups < 2 || result.readings < 2) {
         refuse("GC-GUM-0074", "nested analysis of variance",
-               even ? std::to_string(result.groups) + " groups of " + std::to_string(result.subgroups) +
+               even ? text::count_of(result.groups, "group") + " of " + std::to_string(result.subgroups) +
                           " subgroups of " + std::to_string(result.readings) + " readings"
                     : "groups or subgroups of different sizes",
                "needs at least 2 groups of at least 2 subgroups of at least 2 readings, the same number in each",

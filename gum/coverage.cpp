@@ -15,6 +15,7 @@
 
 #include "gum/argument_check.h"
 #include "gum/quantity/diagnostic.h"
+#include "text/counts.h"
 #include "text/degrees_of_freedom.h"
 #include "text/numbers.h"
 
@@ -132,7 +133,7 @@ double ellipsoid_coverage_factor(double coverage_probability, std::size_t output
         throw NoResultError(Diagnostic{.code = "GC-GUM-0011",
                                        .where = "coverage region",
                                        .what = text::degrees_of_freedom(text::shortest(degrees_of_freedom)) + " for " +
-                                               std::to_string(outputs) + " outputs",
+                                               text::count_of(outputs, "output"),
                                        .rule = "a joint region needs more degrees of freedom than outputs less one",
                                        .action = "Take more observations, or report intervals of single outputs."});
     }

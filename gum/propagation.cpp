@@ -16,6 +16,7 @@
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/distribution_shape.h"
 #include "gum/quantity/special_values.h"
+#include "text/counts.h"
 #include "text/numbers.h"
 
 namespace gumcert::gum {
@@ -87,8 +88,8 @@ GroupFactor factor_group(const InputGroup& group, std::vector<Diagnostic>& probl
     const bool diagonal = V.cols() == 1;
     if (V.rows() != n || (V.cols() != n && !diagonal)) {
         report("GC-GUM-0050",
-               "covariance has " + std::to_string(V.rows()) + " rows and " + std::to_string(V.cols()) +
-                   " columns for " + std::to_string(n) + " quantities",
+               "covariance has " + text::count_of(V.rows(), "row") + " and " + text::count_of(V.cols(), "column") +
+                   " for " + text::count_of(n, "quantity"),
                "must be n×n, or n×1 for a diagonal", "Give one row for every quantity.");
         return factor;
     }

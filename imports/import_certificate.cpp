@@ -16,6 +16,7 @@
 #include "json/strict_parser.h"
 #include "reports/dcc/dcc_reader.h"
 #include "reports/printable_text.h"
+#include "text/counts.h"
 #include "text/lists.h"
 #include "text/plus_sign.h"
 #include "text/utf8.h"
@@ -443,7 +444,7 @@ void add_notes(const std::string& file, std::size_t inputs, std::size_t left_out
             "inputs are the results that have one", "add them as constants where the model needs them"));
     }
     if (inputs > 1) {
-        remarks.push_back(note_of("GC-DCC-0032", file, std::to_string(inputs) + " inputs from one certificate",
+        remarks.push_back(note_of("GC-DCC-0032", file, text::count_of(inputs, "input") + " from one certificate",
                                   "results of one calibration usually share errors; the job holds them as independent",
                                   "state `correlations` or `covariance` where the certificate gives reason to"));
     }

@@ -1,4 +1,5 @@
 #include "jobs/csv_table.h"
+#include "text/counts.h"
 #include "text/csv_field.h"
 #include "text/lists.h"
 #include "text/place.h"
@@ -595,7 +596,7 @@ std::optional<Eigen::MatrixXd> read_csv_matrix(const std::string& bytes, std::si
         }
     }
     if (rows != order) {
-        problems.refuse(k_csv_matrix_size, text::visible(problems.file()), std::to_string(rows) + " rows",
+        problems.refuse(k_csv_matrix_size, text::visible(problems.file()), text::count_of(rows, "row"),
                         "the matrix has " + std::to_string(order) + " rows and columns, and no header",
                         "check that the file is complete and belongs to this job");
     }

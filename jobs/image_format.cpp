@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "jobs/svg_image.h"
+#include "text/counts.h"
 
 namespace gumcert::jobs {
 
@@ -30,7 +31,7 @@ constexpr std::uint32_t k_largest_side = 10000;
 std::string side_objection(std::uint32_t width, std::uint32_t height) {
     const auto outside = [](std::uint32_t side) { return side == 0 || side > k_largest_side; };
     return outside(width) || outside(height)
-               ? "an image of " + std::to_string(width) + " by " + std::to_string(height) + " pixels"
+               ? "an image of " + std::to_string(width) + " by " + text::count_of(height, "pixel")
                : "";
 }
 

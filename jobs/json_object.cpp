@@ -1,4 +1,5 @@
 #include "jobs/json_object.h"
+#include "text/counts.h"
 #include "text/lists.h"
 #include "text/numbers.h"
 #include "text/place.h"
@@ -338,7 +339,7 @@ std::optional<std::vector<double>> JsonObject::required_numbers(std::string_view
     }
     if (array->size() != size) {
         refuse(k_wrong_size, key, "an array of " + std::to_string(array->size()) + " elements",
-               "must have " + std::to_string(size) + " numbers", "correct the array");
+               "must have " + text::count_of(size, "number"), "correct the array");
         return std::nullopt;
     }
     std::vector<double> numbers;

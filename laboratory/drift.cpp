@@ -5,6 +5,7 @@
 #include <string>
 
 #include "gum/quantity/diagnostic.h"
+#include "text/counts.h"
 
 namespace gumcert::laboratory {
 
@@ -34,7 +35,7 @@ Drift drift_within_limit(double limit_per_year, double days) {
 
 Drift drift_as_last_difference(std::span<const SeriesPoint> series, double days) {
     if (series.size() < 2 || series[series.size() - 2].days >= series.back().days) {
-        refuse_history("GC-LAB-0011", std::to_string(series.size()) + " calibrations of this value",
+        refuse_history("GC-LAB-0011", text::count_of(series.size(), "calibration") + " of this value",
                        "the difference between the last two needs two, of different days");
     }
     const SeriesPoint& before = series[series.size() - 2];
@@ -48,7 +49,7 @@ Drift linear_drift(std::span<const SeriesPoint> series, bool weighted, double da
     const auto n = static_cast<double>(series.size());
     const bool has_u = std::all_of(series.begin(), series.end(), [](const SeriesPoint& p) { return p.u > 0.0; });
     if (series.size() < 3 || (weighted && !has_u)) {
-        refuse_history("GC-LAB-0012", std::to_string(series.size()) + " calibrations of this value",
+        refuse_history("GC-LAB-0012", text::count_of(series.size(), "calibration") + " of this value",
                        "a straight line with its uncertainty needs three, and weights need an uncertainty of each");
     }
     // The last value is the origin: values and their differences then have the same digits.

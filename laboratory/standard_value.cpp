@@ -10,6 +10,7 @@
 #include "certificate/dates.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/unit.h"
+#include "text/counts.h"
 #include "text/lists.h"
 #include "text/numbers.h"
 #include "text/visible_text.h"
@@ -289,7 +290,7 @@ StandardValue value_of_standard(const StandardRecord& record, const StandardUse&
     const double days = static_cast<double>(certificate::days_between(calibration.calibrated, use.date).value_or(0));
     if (!use.at) {
         if (found.results.size() > 1) {
-            refuse_use("GC-LAB-0014", record, std::to_string(found.results.size()) + " lines of its certificate fit",
+            refuse_use("GC-LAB-0014", record, text::count_of(found.results.size(), "line") + " of its certificate fit",
                        "an input takes the value of one line of a certificate",
                        "state \"quantity\", \"range\", \"mode\" or \"at\"");
         }

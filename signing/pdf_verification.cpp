@@ -22,6 +22,7 @@
 #include "signing/document_verification.h"
 #include "signing/qpdf_objects.h"
 #include "signing/time_texts.h"
+#include "text/counts.h"
 #include "text/small_letters.h"
 
 namespace gumcert::signing {
@@ -208,7 +209,7 @@ private:
             }
         }
         if (chain.size() > k_most_certificates) {
-            error("GC-SIGN-0124", std::to_string(chain.size()) + " certificates", k_chain_alone);
+            error("GC-SIGN-0124", text::count_of(chain.size(), "certificate"), k_chain_alone);
             chain.resize(1);
         }
         check_parts(cms.get(), {chain, trusted.certificates});

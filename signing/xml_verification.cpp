@@ -29,6 +29,7 @@
 #include "signing/xml_algorithms.h"
 #include "signing/xml_own_parts.h"
 #include "signing/xml_tree.h"
+#include "text/counts.h"
 
 namespace gumcert::signing {
 
@@ -204,7 +205,7 @@ private:
             }
         }
         if (document_references != 1) {
-            error("GC-SIGN-0112", std::to_string(document_references) + " references to the whole document",
+            error("GC-SIGN-0112", text::count_of(document_references, "reference") + " to the whole document",
                   "exactly one reference has URI=\"\", so that nothing else can be taken for what was signed");
         }
         if (const std::string foreign = foreign_part(signature_, covered(), used_); !foreign.empty()) {
@@ -320,7 +321,7 @@ private:
         // Those of the unsigned properties come behind: none of them is the signer's.
         certificates_in(signature_, covered(), k_xades_namespace, "EncapsulatedX509Certificate", chain_, encoded_);
         if (chain_.size() > k_most_certificates) {
-            error("GC-SIGN-0124", std::to_string(chain_.size()) + " certificates", k_chain_alone);
+            error("GC-SIGN-0124", text::count_of(chain_.size(), "certificate"), k_chain_alone);
             chain_.resize(1);
         }
     }
@@ -463,8 +464,8 @@ private:
         listed("of a certificate that nothing that is trusted vouches for: ", unproven_);
         if (const std::size_t lists = revocation_lists_in(signature_, covered()); lists > 0) {
             report_.not_covered.push_back(lists == 1 ? "a list of revoked certificates within the signature"
-                                                     : std::to_string(lists) +
-                                                           " lists of revoked certificates within the signature");
+                                                     : text::count_of(lists, "list") +
+                                                           " of revoked certificates within the signature");
         }
         std::size_t objects = 0;
         for (const xmlNode* object : children_of(signature_, k_dsig_namespace, "Object")) {
@@ -479,7 +480,7 @@ private:
         }
         if (objects > 0) {
             report_.not_covered.push_back(objects == 1 ? "an object within the signature"
-                                                       : std::to_string(objects) + " objects within the signature");
+                                                       : text::count_of(objects, "object") + " within the signature");
         }
     }
 
@@ -529,8 +530,7 @@ std::vector<SignatureReport> verify_xml(const Bytes& xml, const std::string& nam
         reports.push_back(std::move(report));
     };
     if (proper.size() > k_most_signatures) {
-        refuse("GC-SIGN-0122", std::to_string(proper.size()) + " signatures",
-               "a certificate has one signature or a few");
+        refuse("GC-SIGN-0122", text::count_of(proper.size(), "signature"), "a certificate has one signature or a few");
         return reports;
     }
     for (xmlNode* signature : proper) {

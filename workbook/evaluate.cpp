@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "gum/quantity/diagnostic.h"
+#include "text/counts.h"
 #include "text/utf8.h"
 #include "workbook/formula.h"
 #include "workbook/limits.h"
@@ -800,7 +801,7 @@ private:
         }
         const SheetFunction& function = *found->second;
         if (node.children < function.least || node.children > function.most) {
-            return not_evaluated(node.text + " with " + std::to_string(node.children) + " arguments");
+            return not_evaluated(node.text + " with " + text::count_of(node.children, "argument"));
         }
         const bool was_array = is_array_;
         is_array_ = is_array_ || function.takes == SheetFunction::Takes::arrays;
@@ -834,7 +835,7 @@ private:
         if (children.empty() || (node.text == "IF"       ? children.size() > 3
                                  : node.text == "CHOOSE" ? children.size() < 2
                                                          : children.size() != 2)) {
-            return not_evaluated(node.text + " with " + std::to_string(children.size()) + " arguments");
+            return not_evaluated(node.text + " with " + text::count_of(children.size(), "argument"));
         }
         const Operand asked = evaluate(children[0], false);
         if (asked.kind == OperandKind::array ||

@@ -85,23 +85,31 @@ void contribution_not_reproducible(const AuditSubject& subject, FindingCollector
     });
 }
 
-/// A correlation that is stated without its rows, and two rows of which it explains the claimed u_c.
+/// A correlation that is stated without its rows, and two rows of which it explains the claimed u_c, or the claimed U.
 std::optional<RowCorrelation> explaining_correlation(const AuditedBudget& budget) {
     constexpr std::size_t k_most_rows = 40;
     for (const double r : budget.unread_correlations) {
         for (std::size_t i = 0; i < std::min(budget.rows.size(), k_most_rows); ++i) {
             for (std::size_t j = i + 1; j < std::min(budget.rows.size(), k_most_rows); ++j) {
                 AuditedBudget with = budget;
-                with.u_c_over_rows = 1.0;
+                with.u_c_over_rows = with.U_over_k_u_c = 1.0;
                 with.correlations.push_back({.first = i, .second = j, .r = r});
-                const ClaimCheck check = check_u_c(with);
-                if (check.allowed && !check.u_c_outside) {
+                const ClaimCheck check = check_claims(with);
+                if (check.allowed && !check.u_c_outside && (budget.claims.u_c || !check.U_outside)) {
                     return with.correlations.back();
                 }
             }
         }
     }
     return std::nullopt;
+}
+
+void add_as_question(const AuditedBudget& budget, const RowCorrelation& pair, AuditFinding finding,
+                     FindingCollector& findings) {
+    finding.evidence.push_back(say("with r = {r:number} of {first} and {second} it follows", in_words(pair.r),
+                                   name_of_row(budget, pair.first), name_of_row(budget, pair.second)));
+    finding.question = "Which rows does the stated correlation belong to?";
+    findings.add(std::move(finding), FindingSeverity::minor);
 }
 
 /// K01
@@ -123,11 +131,7 @@ void not_reproducible(const AuditSubject& subject, FindingCollector& findings) {
             finding.actual = say_number(claimed_in_words(*budget.claims.u_c, budget.unit));
             finding.kind = "u_c";
             if (const std::optional<RowCorrelation> pair = explaining_correlation(budget)) {
-                finding.evidence.push_back(say("with r = {r:number} of {first} and {second} it follows",
-                                               in_words(pair->r), name_of_row(budget, pair->first),
-                                               name_of_row(budget, pair->second)));
-                finding.question = "Which rows does the stated correlation belong to?";
-                findings.add(std::move(finding), FindingSeverity::minor);
+                add_as_question(budget, *pair, std::move(finding), findings);
             } else {
                 // ν_eff of the sum that is claimed goes with it.
                 finding.correct = [](AuditedBudget& corrected) {
@@ -165,8 +169,14 @@ void not_reproducible(const AuditSubject& subject, FindingCollector& findings) {
             finding.expected = range_in_words(check.U, budget.unit);
             finding.actual = say_number(claimed_in_words(*budget.claims.U, budget.unit));
             finding.kind = "U";
-            finding.correct = [](AuditedBudget& corrected) { corrected.U_over_k_u_c = 1.0; };
-            findings.add(std::move(finding));
+            const std::optional<RowCorrelation> pair =
+                budget.claims.u_c ? std::nullopt : explaining_correlation(budget);
+            if (pair) {
+                add_as_question(budget, *pair, std::move(finding), findings);
+            } else {
+                finding.correct = [](AuditedBudget& corrected) { corrected.U_over_k_u_c = 1.0; };
+                findings.add(std::move(finding));
+            }
         }
     }
 }
@@ -614,8 +624,9 @@ void one_term(const AuditSubject& subject, FindingCollector& findings) {
         for (std::size_t r = 0; r < budget.rows.size() && budget.rows.size() > 1; ++r) {
             const AuditedRow& row = budget.rows[r];
             // Of what the rows add up to: a claim beyond them has no shares.
-            const double part =
-                row.in_sum ? row.used_sensitivity * row.used_u * budget.u_c_over_rows / outcome.u_c : 0.0;
+            const double part = row.in_sum ? row.used_sensitivity * row.used_u * budget.u_c_over_rows *
+                                                 budget.within_digits / outcome.u_c
+                                           : 0.0;
             // More than the whole is a row whose correlations nobody states.
             if (part * part <= k_share || part * part > 1.0 + k_beyond) {
                 continue;

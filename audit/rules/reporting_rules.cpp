@@ -114,6 +114,9 @@ void rounded_on_the_way(const AuditSubject& subject, FindingCollector& findings)
     };
     for (std::size_t i = 0; i < subject.budgets.size(); ++i) {
         AuditedBudget exact = subject.budgets[i];
+        if (exact.within_digits != 1.0) {
+            continue;  // the claimed U follows from other digits than the rounded ones
+        }
         const std::optional<BudgetOutcome> rounded = outcome_or_none(exact);
         unrounded(exact);
         const std::optional<BudgetOutcome> outcome = outcome_or_none(exact);

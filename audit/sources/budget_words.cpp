@@ -1001,8 +1001,15 @@ std::optional<NamedStatement> statement_named(std::string_view name, bool may_ha
             std::optional<NamedStatement> named = statement_named(without, false);
             // "U / V" and "Correction in µm" may be rows, as "U" and "Correction" may; "U / µg = 721 (k = 2)" is none.
             const bool may_be_row = named && (named->may_be_quantity || named->may_be_constant);
-            if (named &&
-                (!may_be_row || (named->statement == Statement::U && coverage_in(named->assigned).says_any()))) {
+            const bool is_U = named && named->statement == Statement::U;
+            if (named && (!may_be_row || (is_U && coverage_in(named->assigned).says_any()))) {
+                return named;
+            }
+            // "U / mm" alone is no voltage: it is as much a statement as "U" beside a unit is.
+            const auto is_voltage = [](const gum::Unit& unit) {
+                return unit.dimension() == gum::Unit::parse("V").dimension();
+            };
+            if (is_U && !is_voltage(*known_unit(std::string(behind.substr(0, end)))) && named->assigned.empty()) {
                 return named;
             }
         }

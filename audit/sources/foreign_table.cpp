@@ -555,11 +555,12 @@ private:
     /// without its ±.
     void take_value_for_stated(std::uint32_t line) {
         const auto has = [this](Column column) { return heads_->columns.contains(column); };
-        if (has(Column::stated) || !has(Column::estimate) || !has(Column::divisor)) {
+        if (!has(Column::estimate) || !has(Column::divisor)) {
             return;
         }
-        std::size_t quotients = 0, others = 0;
+        std::size_t quotients = 0, others = 0, stated = 0;
         each_row_below(line, [&](const SheetView::Row& row) {
+            stated += has(Column::stated) && number_below(row, Column::stated) ? 1U : 0U;
             const std::optional<StatedNumber> value = number_below(row, Column::estimate),
                                               divisor = number_below(row, Column::divisor),
                                               c = number_below(row, Column::sensitivity);
@@ -572,7 +573,11 @@ private:
             const double weighted = c ? part * std::abs(c->value) : part;
             ++(is_printed_as(*u, part) || is_printed_as(*u, weighted) ? quotients : others);
         });
-        if (quotients > 1 && quotients > 2 * others) {
+        // A column "±" of nothing but blanks heads none.
+        if (stated == 0 && quotients > 1 && quotients > 2 * others) {
+            heads_->columns.erase(Column::stated);
+            heads_->units.erase(Column::stated);
+            heads_->unit_columns.erase(Column::stated);
             rename_column(Column::estimate, Column::stated);
         }
     }
@@ -655,6 +660,13 @@ private:
         const std::string name = sheet_.words(*row.front());
         const std::optional<CorrelationWords> words = correlation_words(name);
         const NumbersUnderHeads numbers = numbers_under(sheet_, *heads_, row);
+        if (!words && numbers.empty() && name.find(' ') != std::string::npos) {
+            // A note. "r = 0.9" in it may be of two rows, or of a regression: it is no correlation of the sum, and asked where it would explain it.
+            if (const std::optional<double> r = stated_correlation(name); r && *r != 0.0) {
+                budget_.unread_correlations.push_back(*r);
+            }
+            return false;
+        }
         const auto shape = heads_->columns.find(Column::distribution);
         const Cell* shape_cell = shape == heads_->columns.end() ? nullptr : cell_in(row, shape->second);
         if ((!words && name != "r") || numbers.contains(Column::sensitivity) || numbers.contains(Column::divisor) ||

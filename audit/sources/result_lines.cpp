@@ -440,6 +440,22 @@ std::optional<ValueWithU> value_with_U(const SheetView& sheet, const Cell& cell,
 
 }  // namespace
 
+namespace {
+
+/// The first cell of a row that stands below a head of the table, or right of one: readings to the left of a table are not its
+/// numbers, nor are those that count its rows.
+std::size_t first_below(const Heads& heads, const SheetView::Row& row) {
+    std::uint32_t first = heads.columns.at(Column::quantity);
+    for (const auto& [column, position] : heads.columns) {
+        first = std::min(first, position);
+    }
+    const auto at =
+        std::find_if(row.begin(), row.end(), [first](const Cell* cell) { return cell->address.column >= first; });
+    return static_cast<std::size_t>(at - row.begin());
+}
+
+}  // namespace
+
 std::optional<NamedLine> name_of_line(const SheetView& sheet, const SheetView::Row& row, const Heads* heads) {
     // A name stands before what it names; before it may stand the symbol of what it names.
     for (std::size_t i = 0; i < row.size() && i < 2; ++i) {
@@ -462,7 +478,8 @@ std::optional<NamedLine> name_of_line(const SheetView& sheet, const SheetView::R
         }
         if (named) {
             const bool is_headed = heads != nullptr && row[i]->address.column == heads->columns.at(Column::quantity);
-            return NamedLine{.named = std::move(*named), .cell = i, .from = is_headed ? 0 : i + 1};
+            return NamedLine{
+                .named = std::move(*named), .cell = i, .from = is_headed ? first_below(*heads, row) : i + 1};
         }
     }
     const auto names = heads == nullptr ? row.end() : std::find_if(row.begin(), row.end(), [heads](const Cell* cell) {
@@ -475,7 +492,9 @@ std::optional<NamedLine> name_of_line(const SheetView& sheet, const SheetView::R
     if (!named || named->may_be_quantity || !named->assigned.empty()) {
         return std::nullopt;
     }
-    return NamedLine{.named = std::move(*named), .cell = static_cast<std::size_t>(names - row.begin()), .from = 0};
+    return NamedLine{.named = std::move(*named),
+                     .cell = static_cast<std::size_t>(names - row.begin()),
+                     .from = first_below(*heads, row)};
 }
 
 NumbersUnderHeads numbers_under(const SheetView& sheet, const Heads& heads, const SheetView::Row& row) {

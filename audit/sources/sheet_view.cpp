@@ -186,6 +186,62 @@ std::optional<NumberWithUnit> SheetView::number_in_text(std::string_view text, c
         .number = std::move(leading->number), .unit = unit_in_rest(leading->rest), .is_open = leading->is_open};
 }
 
+namespace {
+
+/// The unit that a number format writes behind its digits, as 0.000" µm" does; "" where it writes none that is known, or something
+/// else than the number: a date, thousands (a comma behind the digits), a percentage.
+std::string unit_of_format(std::string_view format) {
+    constexpr char k_quote = 0x22;
+    std::string behind;
+    bool has_digits = format.starts_with("General");
+    for (std::size_t i = has_digits ? 7 : 0; i < format.size() && format[i] != ';'; ++i) {
+        const char c = format[i];
+        if (c == k_quote) {
+            const std::size_t close = format.find(k_quote, i + 1);
+            if (close == std::string_view::npos) {
+                return "";
+            }
+            behind += format.substr(i + 1, close - i - 1);
+            i = close;
+        } else if (c == '\\' && i + 1 < format.size()) {
+            behind += format[++i];
+        } else if (c == '_' || c == '*') {
+            ++i;  // as wide as the next character, or filled with it
+        } else if (c == '0' || c == '#' || c == '?' || c == '.') {
+            has_digits = true;
+            behind.clear();
+        } else if (c == 'E' || c == '+' || c == '-' || c == ' ' || (c == ',' && !has_digits)) {
+            continue;
+        } else if (c == ',') {
+            const bool is_between = i + 1 < format.size() && (format[i + 1] == '0' || format[i + 1] == '#');
+            if (!is_between) {
+                return "";
+            }
+        } else if (static_cast<unsigned char>(c) >= 0x80U) {
+            behind += c;  // signs that need no quotes: µ, °, a space that does not break
+        } else {
+            return "";
+        }
+    }
+    std::string unit = unit_in_rest(behind);
+    return has_digits && !unit.empty() && known_unit(unit) ? unit : "";
+}
+
+}  // namespace
+
+const std::string& SheetView::unit_shown(const Cell& cell) const {
+    static const std::string none;
+    const std::vector<std::string>& formats = workbook_.number_formats;
+    if (cell.number_format >= formats.size()) {
+        return none;
+    }
+    const auto [known, is_new] = units_of_formats_.try_emplace(cell.number_format);
+    if (is_new) {
+        known->second = unit_of_format(formats[cell.number_format]);
+    }
+    return known->second;
+}
+
 std::optional<NumberWithUnit> SheetView::number_with_unit(const Cell& cell) const {
     const CellValue held = value(cell);
     const bool is_csv = workbook_.csv_separator != '\0';
@@ -195,7 +251,7 @@ std::optional<NumberWithUnit> SheetView::number_with_unit(const Cell& cell) cons
     if (held.kind != CellKind::number) {
         return std::nullopt;
     }
-    NumberWithUnit read{.number = exact_number(held.number, place(cell.address)), .unit = ""};
+    NumberWithUnit read{.number = exact_number(held.number, place(cell.address)), .unit = unit_shown(cell)};
     if (cell.formula_kind == workbook::FormulaKind::none && !has_formulas()) {
         if (std::optional<StatedNumber> printed = read_number(held.text, place(cell.address))) {
             printed->value = held.number;

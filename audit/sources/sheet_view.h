@@ -61,7 +61,8 @@ public:
     /// A number of a cell. One that a formula gave is exact; one that was typed has the digits that were typed, of
     /// which a spreadsheet computes as if they were exact.
     [[nodiscard]] std::optional<StatedNumber> number(const workbook::Cell& cell) const;
-    /// The number that a cell begins with, and the unit behind it: "0.36 µm" and "5 %".
+    /// The number that a cell begins with, and the unit behind it: "0.36 µm" and "5 %"; of a number that its format shows with one,
+    /// 0.000" µm", too.
     [[nodiscard]] std::optional<NumberWithUnit> number_with_unit(const workbook::Cell& cell) const;
     /// The same of a text that stands in a cell.
     [[nodiscard]] std::optional<NumberWithUnit> number_in_text(std::string_view text, const workbook::Cell& cell) const;
@@ -82,6 +83,8 @@ public:
 private:
     /// Copies of all cells with the addresses that they have where a block is turned.
     void turn();
+    /// The unit that the format of its numbers writes behind them.
+    [[nodiscard]] const std::string& unit_shown(const workbook::Cell& cell) const;
     /// Where a cell stands in the file.
     [[nodiscard]] workbook::CellAddress in_file(const workbook::CellAddress& address) const;
 
@@ -93,7 +96,8 @@ private:
     DecimalSign sign_;
     std::string name_;  ///< of the sheet, as formulas write it
     Rows rows_;
-    mutable std::unordered_map<const workbook::Cell*, HeadCell> heads_;  ///< that were asked for
+    mutable std::unordered_map<const workbook::Cell*, HeadCell> heads_;        ///< that were asked for
+    mutable std::unordered_map<std::uint32_t, std::string> units_of_formats_;  ///< that were asked for
 };
 
 /// The cell of a row in a column; nullptr where it holds nothing.

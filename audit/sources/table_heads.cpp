@@ -156,7 +156,9 @@ void take_relative_and_first(const SheetView& sheet, const SheetView::Row& row, 
     take_first_contribution_for_quantity(sheet, row, heads);
     const bool is_budget = (has(Column::u) || has(Column::contribution)) &&
                            (has(Column::divisor) || has(Column::distribution) || has(Column::sensitivity));
-    if (has(Column::quantity) || !is_budget) {
+    // "Source | Standard uncertainty / mm": where it comes from is what it is.
+    const bool has_source_of_u = has(Column::source) && (has(Column::u) || has(Column::contribution));
+    if (has(Column::quantity) || (!is_budget && !has_source_of_u)) {
         return;
     }
     for (const Cell* cell : row) {
@@ -170,7 +172,7 @@ void take_relative_and_first(const SheetView& sheet, const SheetView::Row& row, 
             take(Column::quantity, cell, "");
             return;
         }
-        if (std::find(heads.unknown.begin(), heads.unknown.end(), cell) != heads.unknown.end()) {
+        if (is_budget && std::find(heads.unknown.begin(), heads.unknown.end(), cell) != heads.unknown.end()) {
             take(Column::quantity, cell, "");
             return;
         }
@@ -349,7 +351,7 @@ std::optional<Heads> heads_of(const SheetView& sheet, const SheetView::Row& row)
     };
     // Without one of these no line is one of heads, whatever else it has; most lines are none.
     if (!names(Column::quantity) && !names(Column::divisor) && !names(Column::distribution) &&
-        !names(Column::sensitivity) && !names(Column::contribution)) {
+        !names(Column::sensitivity) && !names(Column::contribution) && !(names(Column::source) && names(Column::u))) {
         return std::nullopt;
     }
     std::optional<Column> before;

@@ -90,8 +90,10 @@ void agreement(FindingList& found, const CertificateData& data, const AgreedSpec
                     "State the date of the agreement, or who prescribes the rule.");
     }
     if (!is_partner(s.agreed_by) && !prescribed) {
+        // What the page prints all the same, a letter or a dash, is not told as nothing.
         found.major("D02", iso_17025("7.1.3"), where("agreed_by"),
-                    "it is not said with whom " + name + " was agreed on",
+                    s.agreed_by.empty() ? "it is not said with whom " + name + " was agreed on"
+                                        : "\"" + s.agreed_by + "\" does not say with whom " + name + " was agreed on",
                     "State the person or department of the customer, or who prescribes the rule.");
     }
     if (is_of_the_laboratory(data, s.agreed_by)) {

@@ -6,6 +6,7 @@
 #include "gum/coverage.h"
 #include "gum/monte_carlo/convolution.h"
 #include "gum/rounding.h"
+#include "text/counts.h"
 
 namespace gumcert::gum {
 
@@ -80,9 +81,8 @@ void expand_by_propagation(const Budget& budget, const BudgetPointResult& point,
             result.coverage_note = convolution_note(nu, k);
             if (convolved->draws > 0) {
                 result.k_numerical_error = convolved->numerical_error;
-                result.coverage_note += "; the numerical error of k from " + std::to_string(convolved->draws) +
-                                        " draws of correlated inputs is " +
-                                        round_significant(convolved->numerical_error, 1);
+                result.coverage_note += "; the numerical error of k from " + text::count_of(convolved->draws, "draw") +
+                                        " of correlated inputs is " + round_significant(convolved->numerical_error, 1);
             }
             result.coverage_factor = convolved->coverage_factor;
             result.expanded_uncertainty = convolved->expanded_uncertainty;

@@ -13,6 +13,7 @@
 #include "gum/budget/zero_uncertainty.h"
 #include "gum/monte_carlo/validation_in_unit.h"
 #include "gum/quantity/progress.h"
+#include "text/counts.h"
 
 namespace gumcert::gum {
 
@@ -252,7 +253,7 @@ void validate_together(const Budget& budget, BudgetPointResult& point, BudgetRes
 Diagnostic not_stabilised_message(std::string where, std::uint64_t trials) {
     return {.code = "GC-BUDGET-0022",
             .where = std::move(where),
-            .what = std::to_string(trials) + " trials, and the results have not stabilised",
+            .what = text::count_of(trials, "trial") + ", and the results have not stabilised",
             .rule =
                 "adaptive Monte Carlo ends when twice the standard deviation of each result "
                 "is within its tolerance (JCGM 101:2008, 7.9.4)",

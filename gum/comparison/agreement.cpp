@@ -15,6 +15,7 @@
 #include "gum/propagation.h"
 #include "gum/quantity/dense_factors.h"
 #include "gum/weighted_t_square.h"
+#include "text/counts.h"
 #include "text/numbers.h"
 
 namespace gumcert::gum {
@@ -52,14 +53,14 @@ void require_sizes(const MethodDifferences& differences) {
         (differences.degrees_of_freedom.size() > 0 && differences.degrees_of_freedom.size() != m)) {
         refuse("GC-GUM-0135", "comparison",
                "covariance " + std::to_string(differences.covariance.rows()) + " by " +
-                   std::to_string(differences.covariance.cols()) + " and " + std::to_string(differences.U.size()) +
-                   " uncertainties for " + std::to_string(m) + " differences",
+                   std::to_string(differences.covariance.cols()) + " and " +
+                   text::count_of(differences.U.size(), "uncertainty") + " for " + text::count_of(m, "difference"),
                "every difference has its row, its column and its uncertainty", "Give all of them.");
     }
     // Refused, and not approximated: a χ² with the same mean and variance is wrong by many powers of ten in the lower
     // tail, and p_low is what "uncertainty too large" rests on.
     if (m > static_cast<Index>(k_most_points_of_agreement)) {
-        refuse("GC-GUM-0141", "comparison", std::to_string(m) + " points",
+        refuse("GC-GUM-0141", "comparison", text::count_of(m, "point"),
                "the joint distribution of up to " + std::to_string(k_most_points_of_agreement) + " points is computed",
                "Split the comparison, or leave out points that lie close together.");
     }
@@ -618,7 +619,7 @@ std::optional<BiasLine> bias_line(const MethodDifferences& differences, const Ve
     require_differences(differences);
     const Index m = differences.d.size();
     if (t.size() != m) {
-        refuse("GC-GUM-0135", "bias line", std::to_string(t.size()) + " positions for " + std::to_string(m) + " points",
+        refuse("GC-GUM-0135", "bias line", text::count_of(t.size(), "position") + " for " + text::count_of(m, "point"),
                "every difference has a position", "Give all of them.");
     }
     for (Index i = 0; i < m; ++i) {
@@ -738,8 +739,8 @@ double vector_en(const VectorXd& d, const MatrixXd& covariance, double coverage_
     require_probability(coverage_probability, "coverage probability");
     if (d.size() == 0 || covariance.rows() != d.size() || covariance.cols() != d.size()) {
         refuse("GC-GUM-0135", "vector of differences",
-               std::to_string(d.size()) + " quantities and a covariance " + std::to_string(covariance.rows()) + " by " +
-                   std::to_string(covariance.cols()),
+               text::count_of(d.size(), "quantity") + " and a covariance " + std::to_string(covariance.rows()) +
+                   " by " + std::to_string(covariance.cols()),
                "at least 1 quantity, and as many rows and columns", "Give all of them.");
     }
     for (Index i = 0; i < d.size(); ++i) {
@@ -754,7 +755,7 @@ double vector_en(const VectorXd& d, const MatrixXd& covariance, double coverage_
     // laboratory is wrong.
     if (free.rank < d.size()) {
         refuse("GC-GUM-0031", "covariance of a vector of differences",
-               "rank " + std::to_string(free.rank) + " for " + std::to_string(d.size()) + " quantities",
+               "rank " + std::to_string(free.rank) + " for " + text::count_of(d.size(), "quantity"),
                "the score divides by it, so it must not be singular",
                "Leave out quantities that follow from the others, or correct the correlations.");
     }

@@ -9,6 +9,7 @@
 #include "gum/comparison/robust_statistics.h"
 #include "gum/coverage.h"
 #include "gum/quantity/diagnostic.h"
+#include "text/counts.h"
 
 namespace gumcert::gum {
 namespace {
@@ -83,7 +84,7 @@ double scale_of(RobustMean kind, std::span<const double> results) {
 void require_same_size(const VectorXd& x, const VectorXd& weights) {
     if (x.size() != weights.size()) {
         refuse("GC-GUM-0135", "weights of a mean",
-               std::to_string(weights.size()) + " for " + std::to_string(x.size()) + " results",
+               std::to_string(weights.size()) + " for " + text::count_of(x.size(), "result"),
                "every result has its weight", "Give all of them.");
     }
 }

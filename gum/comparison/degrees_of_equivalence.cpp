@@ -6,6 +6,7 @@
 #include "gum/argument_check.h"
 #include "gum/comparison/correlated_results.h"
 #include "gum/comparison/reference_value.h"
+#include "text/counts.h"
 
 namespace gumcert::gum {
 namespace {
@@ -21,7 +22,7 @@ void require_reference(const LaboratoryResults& results, const ReferenceValue& r
     if (reference.weights.size() != 0 && reference.weights.size() != results.x.size()) {
         refuse(
             "GC-GUM-0135", "reference value",
-            std::to_string(reference.weights.size()) + " weights for " + std::to_string(results.x.size()) + " results",
+            text::count_of(reference.weights.size(), "weight") + " for " + text::count_of(results.x.size(), "result"),
             "one weight for every result, or none at all",
             "Spread the weights over all results, with 0 for those outside the reference value.");
     }

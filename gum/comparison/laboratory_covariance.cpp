@@ -8,6 +8,7 @@
 
 #include "gum/comparison/shared_sources.h"
 #include "gum/quantity/diagnostic.h"
+#include "text/counts.h"
 
 namespace gumcert::gum {
 
@@ -30,7 +31,7 @@ void require_few_enough(std::size_t count, const LaboratoryData& data) {
         throw InputError(Diagnostic{
             .code = "GC-COMPARE-0103",
             .where = data.where,
-            .what = std::to_string(count) + " results that are correlated with others",
+            .what = text::count_of(count, "result") + " that are correlated with others",
             .rule =
                 "the covariance of up to " + std::to_string(k_most_correlated_laboratories) + " results is computed",
             .action = "State a source as independent, leave out the correlation of the group, or split the job."});

@@ -17,6 +17,7 @@
 #include "gum/quantity/dense_factors.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/special_values.h"
+#include "text/counts.h"
 #include "text/numbers.h"
 
 namespace gumcert::gum {
@@ -560,7 +561,7 @@ ConsistentSubset largest_consistent_subset(const LaboratoryResults& results, dou
         throw NoResultError(Diagnostic{
             .code = "GC-GUM-0134",
             .where = "largest consistent subset",
-            .what = "no two of the " + std::to_string(results.x.size()) + " results are consistent with each other",
+            .what = "no two of the " + text::count_of(results.x.size(), "result") + " are consistent with each other",
             .rule = "chi-square of a subset must not exceed its critical value for alpha = " + text::shortest(alpha),
             .action = "Review the uncertainties, or choose a median or a random-effects mean."});
     }

@@ -12,6 +12,7 @@
 #include "gum/coverage.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/special_values.h"
+#include "text/counts.h"
 #include "text/numbers.h"
 
 namespace gumcert::gum {
@@ -45,7 +46,7 @@ void require_sizes(const MethodComparison& comparison) {
     if (m == 0 || !fits(comparison.covariance) || !fits(comparison.reference_covariance) ||
         (comparison.cross_covariance.size() > 0 && !fits(comparison.cross_covariance))) {
         refuse("GC-COMPARE-0201", "comparison of methods",
-               std::to_string(m) + " points and a covariance of " + std::to_string(comparison.covariance.rows()) +
+               text::count_of(m, "point") + " and a covariance of " + std::to_string(comparison.covariance.rows()) +
                    " and " + std::to_string(comparison.reference_covariance.rows()),
                "every point has its row in the covariance of both methods",
                "Give at least 1 point and all covariances.");

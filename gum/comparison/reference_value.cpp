@@ -18,6 +18,7 @@
 #include "gum/quantity/golden_section.h"
 #include "gum/quantity/special_values.h"
 #include "gum/weighted_t_square.h"
+#include "text/counts.h"
 #include "text/numbers.h"
 
 namespace gumcert::gum {
@@ -297,7 +298,7 @@ void require_results(const LaboratoryResults& results, std::size_t fewest) {
     const Index n = results.x.size();
     if (results.u.size() != n) {
         refuse("GC-GUM-0135", "results",
-               std::to_string(n) + " values and " + std::to_string(results.u.size()) + " standard uncertainties",
+               text::count_of(n, "value") + " and " + std::to_string(results.u.size()) + " standard uncertainties",
                "every value has one standard uncertainty", "Give both for every result.");
     }
     if (n < static_cast<Index>(fewest)) {
@@ -309,8 +310,8 @@ void require_results(const LaboratoryResults& results, std::size_t fewest) {
     const Eigen::MatrixXd& V = results.covariance;
     if (V.size() != 0 && (V.rows() != n || V.cols() != n)) {
         problems.add("GC-GUM-0135", "covariance of the results",
-                     std::to_string(V.rows()) + " rows and " + std::to_string(V.cols()) + " columns for " +
-                         std::to_string(n) + " results",
+                     text::count_of(V.rows(), "row") + " and " + text::count_of(V.cols(), "column") + " for " +
+                         text::count_of(n, "result"),
                      "one row and one column for every result", "Correct the covariance.");
     } else if (!V.allFinite()) {
         problems.add("GC-GUM-0001", "covariance of the results", "a number that is not finite",

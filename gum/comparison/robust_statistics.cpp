@@ -13,6 +13,7 @@
 #include "gum/argument_check.h"
 #include "gum/coverage.h"
 #include "gum/quantity/diagnostic.h"
+#include "text/counts.h"
 #include "text/numbers.h"
 
 namespace gumcert::gum {
@@ -298,7 +299,7 @@ double q_scale(const std::vector<double>& ascending) {
     const auto pairs = static_cast<double>(differences.pairs());
     const auto equal_pairs = static_cast<double>(differences.up_to(0.0));
     if (equal_pairs == pairs) {
-        refuse_scale("Q method", "all " + std::to_string(ascending.size()) + " results are equal: the scale is 0");
+        refuse_scale("Q method", "all " + text::count_of(ascending.size(), "result") + " are equal: the scale is 0");
     }
     // Twice the number of pairs, so that all counts are whole or half: 2 pairs G.
     const double wanted = 0.5 * pairs + 1.5 * equal_pairs;

@@ -10,6 +10,7 @@
 #include "gum/argument_check.h"
 #include "gum/comparison/random_effects.h"
 #include "gum/quantity/diagnostic.h"
+#include "text/counts.h"
 #include "text/numbers.h"
 
 namespace gumcert::gum {
@@ -260,8 +261,8 @@ void require_replicates(const ReplicatedResults& results) {
     const Index n = results.x.size();
     if (results.s.size() != n || results.observations.size() != static_cast<std::size_t>(n)) {
         refuse("GC-GUM-0135", "replicated results",
-               std::to_string(n) + " means, " + std::to_string(results.s.size()) + " standard deviations and " +
-                   std::to_string(results.observations.size()) + " numbers of observations",
+               text::count_of(n, "mean") + ", " + std::to_string(results.s.size()) + " standard deviations and " +
+                   text::count_of(results.observations.size(), "number") + " of observations",
                "every laboratory has one of each", "Give all three for every laboratory.");
     }
     if (n < 2) {
@@ -274,7 +275,7 @@ void require_replicates(const ReplicatedResults& results) {
         require_positive(results.s(i), "standard deviation of " + name);
         const std::size_t observations = results.observations[static_cast<std::size_t>(i)];
         if (observations < 2) {
-            refuse("GC-GUM-0138", name, std::to_string(observations) + " observations",
+            refuse("GC-GUM-0138", name, text::count_of(observations, "observation"),
                    "a standard deviation comes from at least 2",
                    "Give the number of observations behind s, or use a mean that takes u instead.");
         }

@@ -36,8 +36,16 @@ class Application {
 public:
     Application(DecisionRule rule, const DecisionRuleParameters& parameters, const ToleranceLimits& limits,
                 const MeasuredValue& y)
-        : rule_(rule), p_(parameters), limits_(limits), y_(y), population_(stated_population(parameters, limits)) {
+        : rule_(rule),
+          p_(parameters),
+          limits_(limits),
+          y_(y),
+          limits_that_can_be_passed_(limits),
+          population_(stated_population(parameters, limits)) {
         decision_.rule = rule;
+        const bool is_lower_bounded = bounded(limits_that_can_be_passed_.lower, true),
+                   is_upper_bounded = bounded(limits_that_can_be_passed_.upper, false);
+        is_bounded_ = is_lower_bounded || is_upper_bounded;
         if (limits.two_sided()) {
             half_ = 0.5 * (*limits.upper - *limits.lower);
             decision_.test_uncertainty_ratio = half_ / y.expanded_uncertainty;
@@ -50,6 +58,7 @@ public:
     [[nodiscard]] bool applies() const { return reason_.empty(); }
 
 private:
+    [[nodiscard]] bool bounded(std::optional<double>& limit, bool is_lower) const;
     void set_zones();
     void z540_3();
     void posterior();
@@ -86,6 +95,8 @@ private:
     const DecisionRuleParameters& p_;
     const ToleranceLimits& limits_;
     const MeasuredValue& y_;
+    ToleranceLimits limits_that_can_be_passed_;  ///< without one that is a bound of the quantity itself
+    bool is_bounded_ = false;                    ///< one of the limits is
     std::optional<Population> population_;
     double half_ = 0.0;  // T, two-sided limits only
     Zones zones_ = Zones::two;
@@ -142,6 +153,25 @@ std::string Application::in_tolerance() const {
     return limits_.lower ? "P(Y ≥ TL)" : "P(Y ≤ TU)";
 }
 
+/// Takes a limit away that the quantity itself cannot pass: its distribution goes up to it and not beyond, and the limit has a
+/// probability of its own, as that of max(x, 0), or is the 0 of an amount. The distribution is not that of another value moved.
+bool Application::bounded(std::optional<double>& limit, bool is_lower) const {
+    constexpr double k_no_chance = 1e-3;  // of an atom; one trial may fall on a limit
+    constexpr double k_near = 0.1;        // [u]
+    if (!limit || !y_.distribution) {
+        return false;
+    }
+    const double x = *limit, step = k_near * y_.standard_uncertainty;
+    const double beyond = is_lower ? probability_below(y_, x) : 1.0 - distribution_function(y_, x);
+    const double near = is_lower ? distribution_function(y_, x + step) : 1.0 - probability_below(y_, x - step);
+    const double at = distribution_function(y_, x) - probability_below(y_, x);
+    if (beyond > 0.0 || !(near > 0.0) || (at <= k_no_chance && x != 0.0)) {
+        return false;
+    }
+    limit.reset();
+    return true;
+}
+
 void Application::cannot(std::string why) {
     if (reason_.empty()) {
         reason_ = std::move(why);
@@ -187,7 +217,14 @@ void Application::solve_risk(double risk) {
     largest_risk_ = risk;
     // The guard band is what lies between the tolerance limit and the acceptance limit; where both sides differ,
     // because the distribution is not symmetric, the larger one is stated. Without limits no value has so small a risk.
-    if (const auto solved = acceptance_limits_for_risk(y_, limits_, risk)) {
+    const ToleranceLimits& possible = limits_that_can_be_passed_;
+    if (!possible.lower && !possible.upper) {
+        decision_.acceptance = limits_;
+        return;
+    }
+    if (auto solved = acceptance_limits_for_risk(y_, possible, risk)) {
+        solved->lower = limits_.lower && !possible.lower ? limits_.lower : solved->lower;
+        solved->upper = limits_.upper && !possible.upper ? limits_.upper : solved->upper;
         decision_.acceptance = *solved;
         decision_.guard_band =
             std::max(limits_.lower ? *solved->lower - *limits_.lower : -std::numeric_limits<double>::infinity(),
@@ -493,6 +530,13 @@ void Application::probabilities() {
     decision_.conformance_probability =
         with_prior_ ? 1.0 - risk_of(y_.value) : gum::conformance_probability(y_, limits_);
     if (!applies()) {
+        return;
+    }
+    if (is_bounded_ && !with_prior_) {
+        // At a limit of acceptance the distribution would have another shape, which nobody knows.
+        if (zones_ == Zones::by_risk || zones_ == Zones::by_proof) {
+            decision_.largest_specific_risk = largest_risk_;
+        }
         return;
     }
     double largest = 0.0;

@@ -31,7 +31,8 @@ struct ConformityDecision {
     double conformance_probability = 0.0;  ///< p_c; DR-09 method 4: with the population as prior
     /// p_c where rejected, also conditionally; else 1 − p_c, which is what an acceptance would risk
     double specific_risk = 0.0;
-    /// 1 − p_c of a value at the worse acceptance limit; not where no value can pass, or the rule is not applicable
+    /// 1 − p_c of a value at the worse acceptance limit; not where no value can pass, or the rule is not applicable; nor
+    /// where a limit is a bound of the quantity itself, and the rule holds no risk: of another value the distribution is not known
     std::optional<double> largest_specific_risk = {};
     /// Global risks, unconditional, of the stated population, measured with a normal distribution. DR-09 methods 5, 6,
     /// rds and rp10 without a population: the largest false accept probability of any centred one (`note` says so)

@@ -13,6 +13,7 @@
 #include "gum/expression/temperature_check.h"
 #include "gum/expression/unit_check.h"
 #include "gum/quantity/diagnostic.h"
+#include "text/counts.h"
 
 namespace gumcert::gum {
 
@@ -79,7 +80,7 @@ private:
         if (problems_.size() > k_most_problems) {
             const std::size_t more = problems_.size() - k_most_problems;
             problems_.resize(k_most_problems);
-            refuse("GC-MODEL-0018", "model", std::to_string(more) + " more problems", "they are not listed",
+            refuse("GC-MODEL-0018", "model", text::count_of(more, "more problem"), "they are not listed",
                    "Correct the listed ones first.");
         }
         throw InputError(std::move(problems_));
@@ -309,8 +310,8 @@ private:
                 names += (names.empty() ? "" : ", ") + unknown.name;
             }
             refuse("GC-MODEL-0026", implicit_.empty() ? "model" : place(trees_[implicit_.front()].where, 1),
-                   std::to_string(implicit_.size()) + " equations \"0 = …\" and " + std::to_string(unknowns_.size()) +
-                       " unknowns" + (names.empty() ? "" : " (" + names + ")"),
+                   text::count_of(implicit_.size(), "equation") + " \"0 = …\" and " +
+                       text::count_of(unknowns_.size(), "unknown") + (names.empty() ? "" : " (" + names + ")"),
                    "there are as many implicit equations as unknowns", "Complete the equations or \"solve_for\".");
         }
         const std::vector<bool> reached = reach(implicit_).unknowns;

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "gum/quantity/diagnostic.h"
+#include "text/counts.h"
 
 namespace gumcert::gum {
 
@@ -14,11 +15,12 @@ EquationModel::EquationModel(EquationSystem system, std::vector<InputGroup> grou
         size += static_cast<std::size_t>(group.size());
     }
     if (size != system_.input_count()) {
-        throw InputError(Diagnostic{.code = "GC-MODEL-0070",
-                                    .where = "inputs",
-                                    .what = std::to_string(size) + " values",
-                                    .rule = "the equations have " + std::to_string(system_.input_count()) + " inputs",
-                                    .action = "Give one value for every input."});
+        throw InputError(
+            Diagnostic{.code = "GC-MODEL-0070",
+                       .where = "inputs",
+                       .what = text::count_of(size, "value"),
+                       .rule = "the number of inputs of the equations is " + std::to_string(system_.input_count()),
+                       .action = "Give one value for every input."});
     }
     for (std::size_t i = 0; i < system_.output_count(); ++i) {
         const Unit& unit = system_.output_unit(i);

@@ -11,6 +11,7 @@
 #include "gum/expression/syntax_tree.h"
 #include "gum/expression/tape.h"
 #include "gum/quantity/decimal_rounding.h"
+#include "text/counts.h"
 #include "text/numbers.h"
 
 namespace gumcert::gum {
@@ -187,8 +188,8 @@ void EquationSystem::Compiled::check_size(Eigen::Index values) const {
     if (static_cast<std::size_t>(values) != inputs()) {
         throw InputError(Diagnostic{.code = "GC-MODEL-0071",
                                     .where = "inputs",
-                                    .what = std::to_string(values) + " values",
-                                    .rule = "the equations have " + std::to_string(inputs()) + " inputs",
+                                    .what = text::count_of(values, "value"),
+                                    .rule = "the number of inputs of the equations is " + std::to_string(inputs()),
                                     .action = "Give one value for every input."});
     }
 }

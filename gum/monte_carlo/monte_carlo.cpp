@@ -20,6 +20,7 @@
 #include "gum/propagation.h"
 #include "gum/quantity/dense_factors.h"
 #include "gum/quantity/diagnostic.h"
+#include "text/counts.h"
 #include "text/numbers.h"
 
 namespace gumcert::gum {
@@ -351,7 +352,7 @@ public:
             }
         }
         if (column < draws_.size()) {
-            inputs += ", … (" + std::to_string(draws_.size()) + " inputs)";
+            inputs += ", … (" + text::count_of(draws_.size(), "input") + ")";
         }
         throw NoResultError(Diagnostic{
             .code = "GC-GUM-0120",

@@ -23,6 +23,7 @@
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/register_widths.h"
 #include "gum/quantity/special_values.h"
+#include "text/counts.h"
 
 namespace gumcert::gum {
 namespace {
@@ -522,7 +523,7 @@ void report_problems(const InputGroup& group, std::vector<Diagnostic>& problems)
     }
     if (marginals.size() != static_cast<std::size_t>(group.size())) {
         report("GC-GUM-0122",
-               std::to_string(marginals.size()) + " distributions for " + std::to_string(group.size()) + " quantities",
+               text::count_of(marginals.size(), "distribution") + " for " + text::count_of(group.size(), "quantity"),
                "every quantity has one distribution", "Give one distribution for every quantity.");
         return;
     }
@@ -621,7 +622,7 @@ InputDraws::InputDraws(const std::vector<InputGroup>& groups, std::uint64_t seed
     };
     if (!streams.empty() && streams.size() != groups.size()) {
         report_streams(
-            std::to_string(streams.size()) + " streams for " + std::to_string(groups.size()) + " input groups",
+            text::count_of(streams.size(), "stream") + " for " + std::to_string(groups.size()) + " input groups",
             "every group draws from one stream");
     } else {
         std::unordered_set<std::uint64_t> seen(streams.begin(), streams.end());

@@ -8,6 +8,7 @@
 
 #include "gum/budget/budget_covariance.h"
 #include "gum/quantity/units.h"
+#include "text/counts.h"
 #include "text/numbers.h"
 
 namespace gumcert::gum {
@@ -270,7 +271,7 @@ std::vector<BudgetPoint> in_order_of_coordinates(std::vector<BudgetPoint> points
                                         .where = file + "#/points",
                                         .what = point == found.end()
                                                     ? "the coordinate " + name + " has no point"
-                                                    : std::to_string(points.size()) + " points for " +
+                                                    : text::count_of(points.size(), "point") + " for " +
                                                           std::to_string(3 * reflectors.size()) + " coordinates",
                                         .rule = "the budget of the fixture has one point for each coordinate",
                                         .action = "State one point for each coordinate, named as R1.x."});

@@ -12,6 +12,7 @@
 #include "jobs/budget/budget_statement_fields.h"
 #include "jobs/csv_table.h"
 #include "jobs/matrix_limits.h"
+#include "text/counts.h"
 #include "text/numbers.h"
 #include "text/visible_text.h"
 
@@ -314,7 +315,7 @@ private:
             } else if (quantity.pooled_standard_deviation) {
                 objection = "has a pooled standard deviation";
             } else if (together.observations != 0 && n != together.observations) {
-                objection = "has " + std::to_string(n) + " observations, and " +
+                objection = "has " + text::count_of(n, "observation") + ", and " +
                             text::in_quotes(job_.inputs[together.inputs.front()].name) + " has " +
                             std::to_string(together.observations);
             }
@@ -380,7 +381,7 @@ private:
         const std::string& first_name = job_.inputs[members.front()].name;
         if (members.size() > k_most_in_matrix) {
             problems_.refuse(k_too_many_quantities, job_.inputs[members.front()].where,
-                             std::to_string(members.size()) + " inputs are correlated with " +
+                             text::count_of(members.size(), "input") + " are correlated with " +
                                  text::in_quotes(first_name) + " and with each other",
                              "at most " + std::to_string(k_most_in_matrix) + " inputs may be in one correlation matrix",
                              "state fewer correlations");
@@ -552,7 +553,7 @@ std::optional<StatedCovariance> read_covariance(const JsonObject& root, const Js
         stated.inputs.push_back(name);
     }
     if (stated.inputs.empty() || stated.inputs.size() > k_most_in_matrix) {
-        object->refuse(k_wrong_size, "inputs", std::to_string(stated.inputs.size()) + " inputs",
+        object->refuse(k_wrong_size, "inputs", text::count_of(stated.inputs.size(), "input"),
                        "a covariance matrix has 1 to " + std::to_string(k_most_in_matrix) + " inputs",
                        "correct the list");
         return std::nullopt;

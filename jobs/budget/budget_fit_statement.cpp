@@ -15,6 +15,7 @@
 #include "jobs/csv_table.h"
 #include "jobs/job_limits.h"
 #include "jobs/matrix_limits.h"
+#include "text/counts.h"
 #include "text/lists.h"
 #include "text/numbers.h"
 #include "text/place.h"
@@ -325,7 +326,7 @@ private:
             }
             const std::string& name = is_uncertainty ? uncertainties[i - columns_.size()] : columns_[i];
             object_.refuse(k_fit_data, "data",
-                           text::in_quotes(name) + " has " + std::to_string(values[i].size()) + " values, and " +
+                           text::in_quotes(name) + " has " + text::count_of(values[i].size(), "value") + ", and " +
                                text::in_quotes(fit_.ordinate) + " has " + std::to_string(n),
                            "all columns have one value a point", "complete the data");
             fits = false;
@@ -350,10 +351,10 @@ private:
             }
             const bool is_ordinate = i + 1 == columns_.size();
             if (!is_ordinate && q != 1) {
-                data.refuse(k_fit_uncertainty, data.has(uncertainties[i]) ? uncertainties[i] : "file",
-                            text::in_quotes(uncertainties[i]) + " is given, and the fit has " + std::to_string(q) +
-                                " regressors",
-                            "an uncertain regressor must be the only one", "remove the uncertainty");
+                data.refuse(
+                    k_fit_uncertainty, data.has(uncertainties[i]) ? uncertainties[i] : "file",
+                    text::in_quotes(uncertainties[i]) + " is given, and the fit has " + text::count_of(q, "regressor"),
+                    "an uncertain regressor must be the only one", "remove the uncertainty");
                 return false;
             }
             Eigen::MatrixXd& target = is_ordinate ? fit_.y_uncertainty : fit_.x_uncertainty;
@@ -414,7 +415,7 @@ private:
             return;  // refused for having no points
         }
         if (n > static_cast<Eigen::Index>(k_most_in_matrix)) {
-            object.refuse(k_too_many_quantities, key, std::to_string(n) + " points",
+            object.refuse(k_too_many_quantities, key, text::count_of(n, "point"),
                           "a covariance matrix has at most " + std::to_string(k_most_in_matrix) + " points",
                           "state standard uncertainties");
             return;
@@ -486,13 +487,13 @@ private:
         const bool by_residuals = fit_.scale_by_residuals || fit_.y_uncertainty.size() == 0;
         const auto least = by_residuals ? p + 1 : p;
         if (n < least) {
-            object_.refuse(k_fit_data, "data", std::to_string(n) + " points for " + std::to_string(p) + " parameters",
+            object_.refuse(k_fit_data, "data", text::count_of(n, "point") + " for " + text::count_of(p, "parameter"),
                            by_residuals ? "without stated uncertainties the residuals give them: there must be more "
                                           "points than parameters"
                                         : "there must be at least as many points as parameters",
                            "add points, or remove parameters");
         } else if (n > static_cast<Eigen::Index>(k_most_fit_points)) {
-            object_.refuse(k_too_many_quantities, "data", std::to_string(n) + " points",
+            object_.refuse(k_too_many_quantities, "data", text::count_of(n, "point"),
                            "a fit has at most " + std::to_string(k_most_fit_points) + " points", "state fewer points");
         }
     }

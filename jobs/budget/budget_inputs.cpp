@@ -15,6 +15,7 @@
 #include "jobs/certificate/certificate_archive.h"
 #include "jobs/csv_table.h"
 #include "jobs/job_limits.h"
+#include "text/counts.h"
 #include "text/lists.h"
 #include "text/numbers.h"
 #include "text/place.h"
@@ -102,7 +103,7 @@ void BudgetInputs::read(const JsonObject& root) {
     }
     const std::string pointer = root.pointer("inputs");
     if (inputs->size() > k_most_inputs) {
-        root.refuse(k_too_many_quantities, "inputs", std::to_string(inputs->size()) + " inputs",
+        root.refuse(k_too_many_quantities, "inputs", text::count_of(inputs->size(), "input"),
                     "a job has at most " + std::to_string(k_most_inputs) + " inputs", "split the job");
         symbols_are_whole_ = false;
         return;
@@ -326,7 +327,7 @@ bool BudgetInputs::evaluate_components(const Stated& stated, const StatementKeys
         return false;
     }
     if (list->empty() || list->size() > k_most_components) {
-        keys.refuse(k_wrong_size, "components", std::to_string(list->size()) + " components",
+        keys.refuse(k_wrong_size, "components", text::count_of(list->size(), "component"),
                     "an input has 1 to " + std::to_string(k_most_components) + " components", "correct the list");
         return false;
     }
@@ -616,7 +617,7 @@ void BudgetInputs::read_columns(const JsonObject& points, BudgetJob& job) {
     }
     if (!columns->is_object() || columns->size() > k_most_point_columns) {
         points.refuse(k_wrong_type, "columns",
-                      columns->is_object() ? std::to_string(columns->size()) + " columns" : described(*columns),
+                      columns->is_object() ? text::count_of(columns->size(), "column") : described(*columns),
                       "must be an object of at most " + std::to_string(k_most_point_columns) + " columns",
                       "write {\"range\": \"text\", \"nominal\": \"V\"}");
         return;
@@ -933,7 +934,7 @@ void BudgetInputs::name_point(gum::BudgetPoint& point, const std::optional<std::
 
 void BudgetInputs::read_point_array(const json& points, const std::string& pointer, BudgetJob& job) {
     if (points.empty() || points.size() > k_most_points) {
-        problems_.refuse(k_wrong_size, document_.where(pointer), std::to_string(points.size()) + " points",
+        problems_.refuse(k_wrong_size, document_.where(pointer), text::count_of(points.size(), "point"),
                          "a table has 1 to " + std::to_string(k_most_points) + " points", "correct the list");
         return;
     }

@@ -24,6 +24,7 @@
 #include "jobs/job_reader.h"
 #include "jobs/json_object.h"
 #include "jobs/laboratory/laboratory_use.h"
+#include "text/counts.h"
 #include "text/visible_text.h"
 
 namespace gumcert::jobs {
@@ -177,7 +178,7 @@ private:
         std::vector<JsonObject> parts;
         if (!sections->is_object() || sections->empty() || sections->size() > k_most_sections) {
             root.refuse(sections->is_object() ? k_wrong_size : k_wrong_type, "sections",
-                        sections->is_object() ? std::to_string(sections->size()) + " sections" : described(*sections),
+                        sections->is_object() ? text::count_of(sections->size(), "section") : described(*sections),
                         "must be an object of 1 to " + std::to_string(k_most_sections) + " sections",
                         "write {\"DC voltage\": {\"model\": [\"name = expression\"]}}");
             model_is_whole_ = false;
@@ -643,7 +644,7 @@ BudgetJob read_undivided_budget_job(const FileSource& source, const std::string&
     if (!job.sections.empty()) {
         ProblemList problems(job_file);
         problems.refuse(k_sections_of_budget, text::visible(job_file) + "#/sections",
-                        std::to_string(job.sections.size()) + " sections",
+                        text::count_of(job.sections.size(), "section"),
                         "what builds on a budget takes the results of one model",
                         "put the section that is meant into a job of its own");
         throw gum::InputError(problems.refused());

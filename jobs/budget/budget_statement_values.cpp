@@ -7,6 +7,7 @@
 #include "gum/type_a.h"
 #include "jobs/budget/budget_statement_reader.h"
 #include "jobs/csv_table.h"
+#include "text/counts.h"
 #include "text/lists.h"
 #include "text/numbers.h"
 #include "text/visible_text.h"
@@ -114,7 +115,7 @@ bool StatementReader::count_fits(std::string_view key, std::size_t count, std::s
         return false;
     }
     if (count > k_most_values) {
-        keys_.refuse(k_too_many_quantities, key, std::to_string(count) + " values",
+        keys_.refuse(k_too_many_quantities, key, text::count_of(count, "value"),
                      "at most " + std::to_string(k_most_values) + " values are read", "state fewer values");
         return false;
     }
@@ -164,7 +165,7 @@ bool StatementReader::read_lists_of(gum::GroupedReadings& groups) const {
         if (!list.is_array() || (list.size() < 2)) {
             keys_.problems("groups").refuse(
                 list.is_array() ? k_too_few_values : k_wrong_type, keys_.document("groups").where(pointer),
-                list.is_array() ? std::to_string(list.size()) + " readings in a group" : described(list),
+                list.is_array() ? text::count_of(list.size(), "reading") + " in a group" : described(list),
                 "a group is an array of at least 2 readings",
                 "for one reading a group, state the readings as \"observations\"");
             fits = false;
@@ -204,8 +205,8 @@ bool StatementReader::read_summary_of(gum::GroupedReadings& groups) const {
     }
     if (means->size() != deviations->size() || means->size() != sizes->size()) {
         keys_.refuse(k_wrong_size, "groups",
-                     std::to_string(means->size()) + " means, " + std::to_string(deviations->size()) +
-                         " standard deviations and " + std::to_string(sizes->size()) + " sizes",
+                     text::count_of(means->size(), "mean") + ", " + std::to_string(deviations->size()) +
+                         " standard deviations and " + text::count_of(sizes->size(), "size"),
                      "each group has one of each", "correct the arrays");
         return false;
     }

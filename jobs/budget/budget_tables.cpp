@@ -24,6 +24,7 @@
 #include "jobs/budget/point_limit_checks.h"
 #include "jobs/certificate/certificate_archive.h"
 #include "jobs/job_limits.h"
+#include "text/counts.h"
 #include "text/lists.h"
 #include "text/numbers.h"
 #include "text/visible_text.h"
@@ -310,7 +311,7 @@ private:
     void read_list(const json& list, const std::string& pointer) {
         if (!list.is_array() || list.empty() || list.size() > k_most_tables) {
             problems_.refuse(list.is_array() ? k_wrong_size : k_wrong_type, document_.where(pointer),
-                             list.is_array() ? std::to_string(list.size()) + " tables" : described(list),
+                             list.is_array() ? text::count_of(list.size(), "table") : described(list),
                              "must be an array of 1 to " + std::to_string(k_most_tables) + " tables",
                              "write [{\"columns\": [\"reference\", \"indication\", \"error\", \"U\"]}]");
             return;
@@ -358,7 +359,7 @@ private:
         }
         if (!columns->is_array() || columns->empty() || columns->size() > k_most_shown) {
             object.refuse(columns->is_array() ? k_wrong_size : k_wrong_type, "columns",
-                          columns->is_array() ? std::to_string(columns->size()) + " columns" : described(*columns),
+                          columns->is_array() ? text::count_of(columns->size(), "column") : described(*columns),
                           "must be an array of 1 to " + std::to_string(k_most_shown) + " columns",
                           "name what the table shows");
             return;

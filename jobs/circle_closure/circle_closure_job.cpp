@@ -18,6 +18,7 @@
 #include "jobs/json_object.h"
 #include "jobs/laboratory/laboratory_use.h"
 #include "jobs/statement_keys.h"
+#include "text/counts.h"
 #include "text/numbers.h"
 #include "text/visible_text.h"
 
@@ -149,7 +150,7 @@ private:
             return;
         }
         if (effects->size() > k_most_effects) {
-            root.refuse(k_too_many_quantities, "effects", std::to_string(effects->size()) + " effects",
+            root.refuse(k_too_many_quantities, "effects", text::count_of(effects->size(), "effect"),
                         "a job has at most " + std::to_string(k_most_effects), "combine them");
             return;
         }
@@ -285,7 +286,7 @@ private:
         const auto n = static_cast<double>(m.steps);
         if (2.0 * n * static_cast<double>(m.readings.size()) > k_most_coefficients) {
             problems.refuse(k_closure_too_large, where,
-                            std::to_string(m.readings.size()) + " readings at " + std::to_string(m.steps) + " steps",
+                            text::count_of(m.readings.size(), "reading") + " at " + text::count_of(m.steps, "step"),
                             "twice the steps times the readings is at most 20 million",
                             "take the means of repeated series, or fewer positions");
             return;
@@ -296,9 +297,9 @@ private:
                 k_closure_positions, where,
                 divisor == m.steps ? "all readings are in one position of the artefact"
                                    : "the differences of all positions are multiples of " + std::to_string(divisor) +
-                                         ", a divisor of the " + std::to_string(m.steps) + " steps",
-                "deviations that repeat " + std::to_string(divisor) +
-                    " times a turn would be the same in all positions, in table and artefact alike",
+                                         ", a divisor of the " + text::count_of(m.steps, "step"),
+                "deviations that repeat " + text::count_of(divisor, "time") +
+                    " a turn would be the same in all positions, in table and artefact alike",
                 "add a position such that the differences and the number of steps have no common divisor, for example "
                 "the next side");
         }

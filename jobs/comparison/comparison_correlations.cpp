@@ -9,6 +9,7 @@
 #include "jobs/comparison/comparison_statement.h"
 #include "jobs/job_reader.h"
 #include "jobs/matrix_limits.h"
+#include "text/counts.h"
 #include "text/numbers.h"
 #include "text/visible_text.h"
 
@@ -198,8 +199,8 @@ private:
             const std::string& group = reading_.job.participants[members.front()].group;
             reading_.problems.refuse(
                 k_comparison_correlations, where(child_pointer("/groups", group)),
-                "r = " + text::shortest_plain(r) + " cannot hold between all " + std::to_string(members.size()) +
-                    " participants of the group " + text::in_quotes(group) +
+                "r = " + text::shortest_plain(r) + " cannot hold between all " +
+                    text::count_of(members.size(), "participant") + " of the group " + text::in_quotes(group) +
                     ": the smallest eigenvalue of their matrix is " + text::significant(smallest, 3),
                 "n results that are all correlated alike have r of at least -1/(n - 1)", "correct r");
         }
@@ -210,7 +211,7 @@ private:
         if (members.size() > k_most_in_matrix) {
             reading_.problems.refuse(
                 k_too_many_correlated, where("/correlations"),
-                std::to_string(members.size()) + " participants are correlated with " +
+                text::count_of(members.size(), "participant") + " are correlated with " +
                     text::in_quotes(participants[members.front()].id) + " and with each other",
                 "at most " + std::to_string(k_most_in_matrix) + " participants may be in one correlation matrix",
                 "state fewer correlations");
@@ -299,8 +300,8 @@ std::optional<Eigen::MatrixXd> read_correlation_matrix(const ComparisonReading& 
     };
     if (matrix->rows() != n || matrix->cols() != n) {
         return refuse(k_correlation_matrix,
-                      std::to_string(matrix->rows()) + " rows of " + std::to_string(matrix->cols()) + " numbers",
-                      "the matrix has one row and one column for each of the " + std::to_string(n) + " items");
+                      text::count_of(matrix->rows(), "row") + " of " + std::to_string(matrix->cols()) + " numbers",
+                      "the matrix has one row and one column for each of the " + text::count_of(n, "item"));
     }
     for (Eigen::Index i = 0; i < n; ++i) {
         const std::string& name = items[static_cast<std::size_t>(i)];
@@ -378,8 +379,8 @@ void read_vectors(const ComparisonReading& reading, const JsonObject& root, cons
             vector.items.push_back(*item);
         }
         if (items->size() < 2 || items->size() > 100) {
-            object.refuse(k_wrong_size, "items", std::to_string(items->size()) + " items",
-                          "a vector has 2 to 100 items", "list the quantities that were measured together");
+            object.refuse(k_wrong_size, "items", text::count_of(items->size(), "item"), "a vector has 2 to 100 items",
+                          "list the quantities that were measured together");
             return;
         }
         if (vector.items.size() != items->size()) {

@@ -5,6 +5,7 @@
 #include "jobs/budget/budget_fit_statement.h"
 #include "jobs/comparison/comparison_statement.h"
 #include "jobs/job_reader.h"
+#include "text/counts.h"
 #include "text/numbers.h"
 #include "text/visible_text.h"
 
@@ -83,7 +84,7 @@ void read_replicates(const ComparisonReading& reading, const JsonObject& object,
         item.homogeneity = read_rows(reading, object, "homogeneity", 2, 2);
         if (item.homogeneity && item.homogeneity->rows() < static_cast<Eigen::Index>(k_usual_items_to_check)) {
             reading.problems.warn(k_warn_few_to_check, object.where("homogeneity"),
-                                  std::to_string(item.homogeneity->rows()) + " items in the check of homogeneity",
+                                  text::count_of(item.homogeneity->rows(), "item") + " in the check of homogeneity",
                                   "a check with fewer than 10 items finds large differences only",
                                   "measure more items, or say in the report why so few are enough");
         }

@@ -10,6 +10,7 @@
 #include "jobs/comparison/comparison_side.h"
 #include "jobs/comparison/comparison_statement.h"
 #include "jobs/job_reader.h"
+#include "text/counts.h"
 #include "text/numbers.h"
 #include "text/visible_text.h"
 
@@ -209,7 +210,7 @@ private:
         }
         if (kept.size() < k_least_angles) {
             root_.refuse(k_compared_job, side.key,
-                         std::to_string(kept.size()) + " angles of the job " + text::in_quotes(side.side.job_file) +
+                         text::count_of(kept.size(), "angle") + " of the job " + text::in_quotes(side.side.job_file) +
                              " were measured on the other side",
                          "deviations of an angle are compared at 3 angles at least, because their mean is taken off",
                          "measure common angles; points of a table are named by the angle in degrees, \"30\"");

@@ -9,6 +9,7 @@
 #include "jobs/comparison/comparison_statement.h"
 #include "jobs/job_limits.h"
 #include "jobs/job_reader.h"
+#include "text/counts.h"
 #include "text/numbers.h"
 #include "text/small_letters.h"
 #include "text/visible_text.h"
@@ -38,7 +39,7 @@ bool are_too_many(std::size_t results, const std::string& where, ProblemList& pr
     if (results <= k_most_compared_results) {
         return false;
     }
-    problems.refuse(k_too_many_results, where, std::to_string(results) + " results",
+    problems.refuse(k_too_many_results, where, text::count_of(results, "result"),
                     "a comparison has at most " + std::to_string(k_most_compared_results) + " results",
                     "split the data by items or rounds into several jobs");
     return true;
@@ -607,7 +608,7 @@ void ParticipantsReader::read_budget(const JsonObject& object, ComparisonResult&
     result.uncertainty.reset();
     if (result.budget->points.size() > 1) {
         object.refuse(k_comparison_budget, "budget",
-                      "the budget has " + std::to_string(result.budget->points.size()) + " points",
+                      "the budget has " + text::count_of(result.budget->points.size(), "point"),
                       "a result is one value: its budget has no points, or one",
                       "write a budget of this result alone, or compare methods point by point");
         return;

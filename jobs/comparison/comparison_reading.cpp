@@ -12,6 +12,7 @@
 #include "jobs/comparison/comparison_statement.h"
 #include "jobs/job_limits.h"
 #include "jobs/job_reader.h"
+#include "text/counts.h"
 #include "text/numbers.h"
 #include "text/small_letters.h"
 #include "text/visible_text.h"
@@ -162,7 +163,7 @@ void refuse_other_results(const BudgetJob& budget, const gum::Unit& wanted, cons
     problems.refuse(k_comparison_budget, where,
                     units.size() == 1
                         ? "the result of the budget has the unit " + text::in_quotes(units.front())
-                        : "the budget has " + std::to_string(units.size()) + " results, in " + list_of(units),
+                        : "the budget has " + text::count_of(units.size(), "result") + ", in " + list_of(units),
                     "it has one result, of a unit of the same kind as " + text::in_quotes(wanted.text()),
                     "state one output in the budget, or correct the unit of the comparison");
 }
@@ -463,7 +464,7 @@ std::optional<Eigen::MatrixXd> read_rows(const ComparisonReading& reading, const
         return std::nullopt;
     }
     if (rows->size() < least_rows) {
-        object.refuse(k_wrong_size, key, std::to_string(rows->size()) + " rows",
+        object.refuse(k_wrong_size, key, text::count_of(rows->size(), "row"),
                       "there must be at least " + std::to_string(least_rows), "write one array a row");
         return std::nullopt;
     }

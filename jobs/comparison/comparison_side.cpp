@@ -6,6 +6,7 @@
 #include "jobs/comparison/comparison_compared_job.h"
 #include "jobs/comparison/comparison_statement.h"
 #include "jobs/job_reader.h"
+#include "text/counts.h"
 #include "text/numbers.h"
 #include "text/visible_text.h"
 
@@ -29,7 +30,7 @@ bool are_too_many_points(std::size_t points, const std::string& where, ProblemLi
     if (points <= k_most_side_points) {
         return false;
     }
-    problems.refuse(k_too_many_quantities, where, std::to_string(points) + " points",
+    problems.refuse(k_too_many_quantities, where, text::count_of(points, "point"),
                     "a comparison has at most " + std::to_string(k_most_side_points) + " points", "split the data");
     return true;
 }

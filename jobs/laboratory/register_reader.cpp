@@ -14,6 +14,7 @@
 #include "jobs/certificate/certificate_archive.h"
 #include "jobs/job_reader.h"
 #include "jobs/laboratory/laboratory_codes.h"
+#include "text/counts.h"
 #include "text/visible_text.h"
 
 namespace gumcert::jobs {
@@ -293,7 +294,7 @@ private:
                 break;
         }
         if (plan.least_days > plan.most_days) {
-            object.refuse(k_certificate_limits, "least_days", std::to_string(plan.least_days) + " days",
+            object.refuse(k_certificate_limits, "least_days", text::count_of(plan.least_days, "day"),
                           "must not be above most_days, " + std::to_string(plan.most_days), "exchange the two");
         }
     }

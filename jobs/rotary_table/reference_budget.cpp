@@ -10,6 +10,7 @@
 #include "jobs/budget/budget_results.h"
 #include "jobs/input_text.h"
 #include "jobs/problem_list.h"
+#include "text/counts.h"
 #include "text/numbers.h"
 #include "text/visible_text.h"
 
@@ -131,7 +132,7 @@ BudgetJob read_reference_budget(const FileSource& source, const std::string& fil
     ProblemList problems(file);
     if (!budget.points.empty()) {
         problems.refuse(k_reference_budget_points, text::visible(file) + "#/points",
-                        std::to_string(budget.points.size()) + " points",
+                        text::count_of(budget.points.size(), "point"),
                         "the points of the budget of a reference value are those of the readings", "remove \"points\"");
     }
     check_output(budget, problems);

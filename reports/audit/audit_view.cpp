@@ -310,10 +310,23 @@ AuditedResultView result_view(const audit::AuditedResult& result, const AuditedB
     view.nu_eff = printed(result.allowed.nu_eff, printed_nu);
     view.k = printed(result.allowed.k, printed_k);
     view.U = printed(result.allowed.U, three_digits);
+    // A result of a certificate has no rows, of which ν_eff could be computed again.
+    if (budget.rows.empty() && !budget.evaluated_here) {
+        for (PrintedOutcome* outcome : {&view.recomputed, &view.audited}) {
+            outcome->nu_eff = "–";
+            outcome->number.nu_eff = std::numeric_limits<double>::quiet_NaN();
+        }
+        view.nu_eff.low = view.nu_eff.high = "–";
+        view.nu_eff.number = {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN()};
+        if (!budget.claims.nu_eff) {
+            view.claimed.nu_eff = "–";
+            view.claimed.number.nu_eff = std::numeric_limits<double>::quiet_NaN();
+        }
+    }
     // By the same look as rule K01. What was evaluated here needs none: its sum and its k come from the evaluation.
     const audit::ClaimCheck check = budget.evaluated_here ? audit::ClaimCheck{} : audit::check_claims(budget);
     view.claim_u_c = claim_of(budget.claims.u_c, check.u_c_outside);
-    view.claim_nu_eff = claim_of(budget.claims.nu_eff, check.nu_eff_apart);
+    view.claim_nu_eff = claim_of(budget.claims.nu_eff, check.nu_eff_apart && !budget.rows.empty());
     view.claim_k = claim_of(budget.claims.k, check.k_outside);
     view.claim_U = claim_of(budget.claims.U, check.U_outside);
     view.change = change_of(result.claimed, result.audited);

@@ -18,8 +18,8 @@ knows or would add; in a tree without git, at every file outside build folders.
   taken off
 - a handler of std::exception, in a layer that reads files, without one of std::bad_alloc before it: memory that ends says nothing
   of the file that is read, and is told as such
-- a count with a plural behind it in what the archive, summaries and the program tell ("1 certificates"): text::count_of() knows
-  both forms; "1 of 3 records" stands as it is
+- a count with a plural behind it in what the program tells, and in refusals of its readers ("1 certificates"): text::count_of() knows
+  both forms; "1 of 3 records" stands as it is, and so does a limit
 - a layer of more than 25 units (a header with its source): it has more than one subject, and is to be divided by them
 """
 
@@ -108,9 +108,13 @@ def handlers_that_blame_a_file(name, text):
             handlers.add(caught[1])
 
 
-# Folders whose lines people read on a terminal.
-TOLD_ON_A_TERMINAL = ("app/", "archive/", "evaluation/", "issuing/", "outputs/", "reports/summary/", "self_test/")
+# Folders whose lines people read on a terminal, with those whose refusals stand there.
+TOLD_ON_A_TERMINAL = ("app/", "archive/", "engine/curve_fit", "evaluation/", "gum/", "imports/", "issuing/", "jobs/", "json/",
+                      "laboratory/", "outputs/", "reports/summary/", "self_test/", "signing/", "workbook/")
 ONE_OF_MANY = re.compile(r'of (?:"\s*\+\s*)?$')
+# A limit of the program is more than one, and so is what is told because it is above a limit.
+LIMIT = re.compile(r"to_string\((?:k_|limits\.|size\.most|options_\.|most_|deepest_|adaptive\.most_|least\b|3 \*)")
+SQUARE = re.compile(r'\s*and columns\b')  # "2 rows and columns" of a matrix
 COUNTED = re.compile(r"""\{\}\ (?:more\ |other\ |earlier\ )?(?P<a>[a-z]{3,}s)\b
                        |to_string\((?:[^()"]|\((?:[^()]|\([^()]*\))*\))*\)\s*\+\s*"\ (?:more\ |other\ |earlier\ )?(?P<b>[a-z]{3,}s)\b""", re.VERBOSE)
 NO_PLURAL = {"agrees", "belongs", "breaks", "bytes", "does", "has", "names", "this"}  # verbs, and units of limits
@@ -126,7 +130,8 @@ def counts_with_a_plural(name, text):
     for found in COUNTED.finditer(text):
         noun = found["a"] or found["b"]
         before = re.sub(r"std::$", "", text[:found.start()])
-        if noun not in NO_PLURAL and not ONE_OF_MANY.search(before) and (name, noun) not in ALWAYS_SEVERAL:
+        is_plain = LIMIT.match(found[0]) or SQUARE.match(text[found.end():])
+        if noun not in NO_PLURAL and not is_plain and not ONE_OF_MANY.search(before) and (name, noun) not in ALWAYS_SEVERAL:
             yield text.count("\n", 0, found.start()) + 1, noun
 
 

@@ -255,6 +255,11 @@ class Tree(PlantedTree):
                      'a = "entry " + std::to_string(n) + " names it";', 'a = text::count_of(n, "entry");'):
             self.plant("archive/a.cpp", text + "\n")
             self.expect(self.scan(), 0)
+        # Refusals of readers are read there, too; a limit is never one.
+        self.plant("jobs/a.cpp", '\na = std::to_string(rows) + " rows";\n')
+        self.expect(self.scan(), 1, "jobs/a.cpp:2: ", "use text::count_of()")
+        self.plant("jobs/a.cpp", '\na = std::to_string(k_most_rows) + " rows, as " + std::to_string(n) + " rows and columns";\n')
+        self.expect(self.scan(), 0)
 
     def test_memory_that_ends_blames_no_file(self):
         handler = "    }} catch (const {}&) {{\n        a();\n"

@@ -15,6 +15,7 @@
 #include "gum/rotary_table/fixture_budget.h"
 #include "gum/rotary_table/studies/plan_texts.h"
 #include "gum/rounding.h"
+#include "text/counts.h"
 
 namespace gumcert::gum::plan {
 
@@ -155,7 +156,7 @@ void leave_out_hidden(Setting& setting) {
     for (std::size_t j = 0; j < counts.size(); ++j) {
         if (counts[j].seen() == 0) {
             blind.push_back({"GC-PLAN-0004", "station " + setting.whole.stations[j],
-                             "sees none of its " + std::to_string(counts[j].distances) + " distances",
+                             "sees none of its " + text::count_of(counts[j].distances, "distance"),
                              "a station measures what it sees past the obstacles of plan.sight",
                              "move the station, or correct plan.sight", Severity::error});
         }

@@ -17,6 +17,7 @@
 #include "gum/propagation.h"
 #include "gum/rotary_table/evaluate_rotary_table.h"
 #include "gum/rotary_table/studies/campaign_draws.h"
+#include "text/counts.h"
 
 namespace gumcert::gum {
 
@@ -305,8 +306,8 @@ AngleStudy study_layout(const RotaryTableMeasurement& layout, const SimulationRe
             const std::size_t run = first + task;
             const std::size_t number = ++begun;
             if (worker == 0 && progress) {
-                progress("simulation, " + std::to_string(study.angles) + " angles, campaign " + std::to_string(number) +
-                         " of " + std::to_string(request.runs));
+                progress("simulation, " + text::count_of(study.angles, "angle") + ", campaign " +
+                         std::to_string(number) + " of " + std::to_string(request.runs));
             }
             const CampaignTruth assumed = draws.exact_truth(run);
             const Eigen::VectorXd values = engine::reported_order(layout, assumed.errors, assumed.set_up, nullptr);

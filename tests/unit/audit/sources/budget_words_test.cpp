@@ -72,8 +72,8 @@ TEST(Statements, MayHaveTheirUnitBehindTheName) {
     EXPECT_EQ(named_statement("Expanded uncertainty / dB, k = 2")->coverage, ", k = 2");
     EXPECT_FALSE(statement_of("Temperature in °C"));
     // What is a quantity without its unit may be one with it.
-    for (const char* name :
-         {"U / V", "I / A", "k / N", "Correction in µm", "Error in mm", "Tolerance in µm", "CMC / µm", "U / V = 230"}) {
+    for (const char* name : {"U / V", "U / kV", "I / A", "k / N", "Correction in µm", "Error in mm", "Tolerance in µm",
+                             "CMC / µm", "U / V = 230"}) {
         EXPECT_FALSE(statement_of(name)) << name;
     }
     // One unit is taken off a name, however many stand in it: each of them twice as long to read was a minute at 18.

@@ -43,5 +43,25 @@ TEST(SheetView, ReadsNumbersWithUnits) {
     EXPECT_NE(open_sign("b!B1", "1.200").english().find("1.200"), std::string::npos);
 }
 
+TEST(SheetView, ShowsTheUnitThatAFormatWritesBehindItsNumbers) {
+    const auto shown = [](const std::string& format) {
+        workbook::Workbook workbook = test::workbook_of({{"A1", "0.30"}});
+        workbook.number_formats = {format};
+        workbook.sheets[0].cells[0].number_format = 0;
+        const workbook::Evaluation evaluation = workbook::evaluate_workbook(workbook);
+        const SheetView sheet(workbook, evaluation, 0, DecimalSign::point);
+        return sheet.number_with_unit(*sheet.rows().at(1).front())->unit;
+    };
+    for (const char* const format : {"0.000\" µm\"", "0.000\\ \"µm\"", "#,##0.00\" µm\"", "General\" µm\"",
+                                     "0.00\\ µ\\m", "0.0E+00\" µm\"", "0.00\" µm\";-0.00\" µm\"", "_-0.00\"µm\"_-"}) {
+        EXPECT_EQ(shown(format), "µm") << format;
+    }
+    // Dates, thousands, percentages, words before the digits, and what is no unit.
+    for (const char* const format : {"General", "0.00", "yyyy\\-mm\\-dd", "0.00,\" km\"", "0.00%", "\"mm \"0.00",
+                                     "0\" readings\"", "[$-409]d/m/yy", "h:mm", "0.00\"", "@"}) {
+        EXPECT_EQ(shown(format), "") << format;
+    }
+}
+
 }  // namespace
 }  // namespace gumcert::audit

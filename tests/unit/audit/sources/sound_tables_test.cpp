@@ -228,5 +228,93 @@ TEST(SoundTables, ACertifiedRowIsTheReferenceOfABudgetWithoutChecklist) {
     EXPECT_TRUE(has(table(""), "B01"));
 }
 
+TEST(SoundTables, AskOfACorrelationThatANoteStates) {
+    const std::string heads = "Quantity,Estimate,Unit,u,nu,Sensitivity,Contribution\n",
+                      rows =
+                          "Standard gauge A,0,um,0.02,50,1,0.02\nStandard gauge B,0,um,0.02,50,-1,-0.02\n"
+                          "Indication,0,um,0.01,9,1,0.01\nResolution,0,um,0.003,inf,1,0.003\n",
+                      note = "\"Note: A and B were calibrated together, r = 0.9\"\n";
+    for (const std::string& claims :
+         {std::string("u_c,,um,0.0137\nk,,,2\nU,,um,0.027\n"), std::string("k,,,2\nU,,um,0.027\n")}) {
+        for (const std::string& table : {heads + rows + note + claims, heads + rows + claims + note}) {
+            const AuditReport report = audited_text(table);
+            EXPECT_FALSE(report.has_critical()) << table;
+            EXPECT_TRUE(has(report, "K01")) << "it is asked";
+        }
+        EXPECT_TRUE(audited_text(heads + rows + claims).has_critical());
+        // Of a regression, it explains nothing; and a note is no row.
+        EXPECT_TRUE(audited_text(heads + rows + "\"Note: the regression has r = 0.3\"\n" + claims).has_critical());
+    }
+    const AuditReport sound =
+        audited_text(heads + rows + "\"Note: the regression has r = 0.999\"\nu_c,,um,0.0301\nk,,,2\nU,,um,0.060\n");
+    EXPECT_FALSE(has(sound, "K01"));
+}
+
+TEST(SoundTables, StateDegreesOfFreedomInTheDistributionAndReadingsWithAnAdjective) {
+    const auto table = [](const std::string& distribution, const std::string& name) {
+        return audited_text(
+            "quantity,unit,U or a,divisor,distribution,u,sensitivity,contribution\n"
+            "Reference standard,V,0.020,2,normal,0.010,1,0.010\n" +
+            name + ",V,0.006,1,\"" + distribution +
+            "\",0.006,1,0.006\nResolution,V,0.005,1.732,rectangular,0.00289,1,0.00289\nu_c,V,0.0120\nk,,2\nU,V,0."
+            "024\n");
+    };
+    for (const char* const distribution :
+         {"t (9)", "t(9)", "t, ν = 9", "Student's t (9)", "t-distribution (9)", "t, 9 degrees of freedom"}) {
+        EXPECT_EQ(table(distribution, "Repeatability").subject.budgets.at(0).rows.at(1).used_nu, 9.0) << distribution;
+    }
+    for (const char* const distribution : {"t", "t (2)", "t (95 %)", "normal (9)", "t (k = 3)"}) {
+        EXPECT_TRUE(std::isinf(table(distribution, "Repeatability").subject.budgets.at(0).rows.at(1).used_nu))
+            << distribution;
+    }
+    for (const char* const name : {"Repeatability (5 equal readings)", "Wiederholbarkeit (5 gleiche Ablesungen)",
+                                   "Repeatability of 5 independent measurements"}) {
+        EXPECT_EQ(table("normal", name).subject.budgets.at(0).rows.at(1).n, 5U) << name;
+    }
+    EXPECT_FALSE(table("normal", "Repeatability (5 kg load)").subject.budgets.at(0).rows.at(1).n);
+}
+
+TEST(SoundTables, AreHeadedBySourceAndStateUInTheUnitOfALength) {
+    for (const char* const head : {"Source", "No.,Source"}) {
+        const std::string before = std::string_view(head) == "Source" ? "" : "1,";
+        const AuditReport report = audited_text(
+            std::string(head) + ",Standard uncertainty (mm)\n" + before + "Reference certificate,0.015\n" + before +
+            "Resolution,0.0029\n" + before + "Repeatability,0.004\n" + before +
+            "Temperature,0.0115\nExpanded uncertainty U (k = 2) in mm," + (before.empty() ? "" : ",") + "0.039\n");
+        ASSERT_EQ(report.results.size(), 1U) << head;
+        EXPECT_NEAR(report.results[0].recomputed.U, 0.0391, 1e-4) << head;
+    }
+    const auto stated = [](const std::string& unit) {
+        return audited_text("Quantity,u / " + unit + ",c,Contribution / " + unit +
+                            "\nReference,0.010,1,0.010\nDrift,0.006,1,0.006\n"
+                            "Repeatability,0.005,1,0.005\nu_c / " +
+                            unit + ",,,0.0127\nk,,,2\nU / " + unit + ",,,0.025\n");
+    };
+    for (const char* const unit : {"mm", "K", "mg", "N·m", "dB"}) {
+        ASSERT_TRUE(stated(unit).subject.budgets.at(0).claims.U) << unit;
+        EXPECT_EQ(stated(unit).subject.budgets[0].claims.U->value, 0.025) << unit;
+    }
+    EXPECT_FALSE(stated("mV").subject.budgets.at(0).claims.U) << "it may be a voltage";
+    // Readings to the left of a table, and numbers of its rows, are none of its results.
+    for (const char* const head : {"Readings", "No.", "Datum"}) {
+        const AuditReport right = audited_text(
+            std::string(head) +
+            ",,Quantity,u / mm,c,Contribution / mm\n10.01,,Reference,0.010,1,0.010\n"
+            "10.02,,Drift,0.006,1,0.006\n10.03,,Repeatability,0.005,1,0.005\n10.01,,u_c,,,0.0127\n10.02,,k,,,2\n"
+            "10.03,,Expanded uncertainty,,,0.025\n");
+        ASSERT_EQ(right.results.size(), 1U) << head;
+        EXPECT_FALSE(has(right, "K01")) << head;
+        EXPECT_EQ(right.results[0].claimed.U, 0.025) << head;
+        EXPECT_EQ(right.results[0].claimed.u_c, 0.0127) << head;
+    }
+    // A column "±" without a number is none, and the values are what is divided.
+    const AuditReport blank = audited_text(
+        "Source,Value,±,Unit,Distribution,Divisor,ui,ci,ci·ui\nReference calibration,0.02,,K,normal,2,0.01,1,0.01\n"
+        "Drift,0.01,,K,rectangular,1.732,0.00577,1,0.00577\nStability,0.015,,K,rectangular,1.732,0.00866,1,0.00866\n"
+        "Combined standard uncertainty,,,K,,,,,0.0144\nk,,,,,,,,2\nExpanded uncertainty,,,K,,,,,0.029\n");
+    EXPECT_FALSE(has(blank, "U23"));
+    EXPECT_EQ(blank.subject.budgets.at(0).rows.at(0).stated->value, 0.02);
+}
+
 }  // namespace
 }  // namespace gumcert::audit

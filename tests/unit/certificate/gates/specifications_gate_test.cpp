@@ -35,6 +35,9 @@ TEST(SpecificationsGate, BlocksTheSymbolWhereTheRuleCameAfterTheWork) {
 TEST(SpecificationsGate, WantsAPartner) {
     expect_finding(only(after([](AgreedSpecification& s) { s.agreed_by = "unknown"; })), "D02", k_before_the_work,
                    k_major, "/specifications/0/agreed_by");
+    // What the page prints is not told as nothing.
+    EXPECT_THAT(only(after([](AgreedSpecification& s) { s.agreed_by = "X"; })).what,
+                testing::HasSubstr("\"X\" does not say with whom"));
     EXPECT_THAT(ids(after([](AgreedSpecification& s) { s.agreed_by = "Customer"; })), testing::IsEmpty());
     EXPECT_THAT(ids(after([](AgreedSpecification& s) {
                     s.agreed_by.clear();

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <string>
 #include <vector>
@@ -811,6 +812,37 @@ TEST(DecideConformity, PopulationAddsGlobalRisksToAnyRule) {
         decide_conformity(DecisionRule::simple_acceptance, {.population_deviation = 0.5}, k_symmetric_tolerance, few)
             .note,
         "The global risk takes the measurement as normally distributed with u.");
+}
+
+/// max(N(0.2, 1), 0) and |N(0.2, 1)|: amounts, which no limit at 0 can find below it.
+TEST(DecideConformity, ALimitThatTheQuantityCannotPassIsNoRiskOfAnotherValue) {
+    const auto normal = [](double x) { return 0.5 * std::erfc(-x / std::sqrt(2.0)); };
+    const auto clipped = [&](double x, bool with) { return x < 0.0 || (x == 0.0 && !with) ? 0.0 : normal(x - 0.2); };
+    const auto folded = [&](double x, bool) { return x <= 0.0 ? 0.0 : normal(x - 0.2) - normal(-x - 0.2); };
+    for (const auto& shape :
+         {std::function<double(double, bool)>(clipped), std::function<double(double, bool)>(folded)}) {
+        const MeasuredValue y{.value = 0.5,
+                              .standard_uncertainty = 0.6,
+                              .expanded_uncertainty = 1.7,
+                              .distribution = [shape](double x) { return shape(x, true); },
+                              .distribution_below = [shape](double x) { return shape(x, false); }};
+        const ConformityDecision simple =
+            decide_conformity(DecisionRule::simple_acceptance, {}, {.lower = 0.0, .upper = 3.0}, y);
+        EXPECT_EQ(simple.verdict, ConformityVerdict::pass);
+        EXPECT_FALSE(simple.largest_specific_risk);
+        EXPECT_DOUBLE_EQ(simple.specific_risk, 1.0 - shape(3.0, true));
+        const ConformityDecision by_risk =
+            decide_conformity(DecisionRule::specific_risk, {.probability = 0.05}, {.lower = 0.0, .upper = 3.0}, y);
+        EXPECT_EQ(by_risk.verdict, ConformityVerdict::pass);
+        EXPECT_EQ(by_risk.acceptance.lower, 0.0);
+        EXPECT_LT(*by_risk.acceptance.upper, 3.0);
+        EXPECT_EQ(by_risk.largest_specific_risk, 0.05);
+        // A limit that it can pass: as ever.
+        EXPECT_TRUE(decide_conformity(DecisionRule::simple_acceptance, {}, {.lower = 0.4, .upper = 3.0}, y)
+                        .largest_specific_risk);
+        EXPECT_TRUE(decide_conformity(DecisionRule::simple_acceptance, {}, {.lower = -1.0, .upper = 3.0}, y)
+                        .largest_specific_risk);
+    }
 }
 
 TEST(DecideConformity, RefusesLimitsValuesAndRules) {

@@ -481,7 +481,7 @@ std::vector<BadComparison> bad_of_assigned_values() {
          k_check_without_criterion,
          "job.json#/stability",
          "without homogeneity"},
-        {"one_item_to_check", three(R"("homogeneity": [[1, 2]])"), {}, k_wrong_size, "#/homogeneity", "1 rows"},
+        {"one_item_to_check", three(R"("homogeneity": [[1, 2]])"), {}, k_wrong_size, "#/homogeneity", "1 row"},
         {"reference_value_without_u",
          three(R"("reference_value": {"value": 3})"),
          {},

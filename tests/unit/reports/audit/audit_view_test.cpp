@@ -5,15 +5,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 #include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
+#include "audit/audit.h"
 #include "audit/budget_outcome.h"
 #include "audit/checklists.h"
 #include "audit/claims.h"
+#include "audit/row_meaning.h"
 #include "reports/printable_text.h"
+#include "tests/support/audited_budgets.h"
 #include "tests/support/hostile_strings.h"
 #include "tests/support/sample_audit.h"
+#include "text/numbers.h"
 
 namespace gumcert::reports {
 namespace {
@@ -61,6 +68,125 @@ TEST(AuditViewOfABudget, RoundingOfTheClaimIsNoError) {
     result.audited.U = 50.0;
     const AuditView changed = view_of(report);
     EXPECT_EQ(changed.files.at(0).results.at(0).change.direction, "overstated");
+}
+
+double corrected_by = 1.0;
+void first_row_is_another(const audit::AuditSubject&, audit::FindingCollector& findings) {
+    audit::AuditFinding finding;
+    finding.where = "row 1";
+    finding.what = "another u";
+    finding.budgets = {0};
+    finding.correct = [by = corrected_by](audit::AuditedBudget& budget) { budget.rows[0].used_u *= by; };
+    findings.add(std::move(finding));
+}
+
+/// A number rounded to some digits, as a table prints it.
+std::string to_digits(double number, int digits, bool up = false) {
+    const double step = std::pow(10.0, std::floor(std::log10(number)) - digits + 1);
+    const double rounded = (up ? std::ceil(number / step) : std::round(number / step)) * step;
+    return text::fixed(rounded, static_cast<int>(std::max(0.0, -std::round(std::log10(step)))));
+}
+
+/// What stands beside each other of a change: two numbers, a percentage, and a word.
+void expect_no_contradiction(const std::string& from, double from_step, const std::string& to, const Change& change,
+                             const std::string& which) {
+    const double before = std::stod(from), after = std::stod(to), percent = 100.0 * change.relative;
+    EXPECT_EQ(change.direction == "unchanged", before == after) << which;
+    EXPECT_TRUE(change.percent != "0.0" || before == after) << which;
+    if (change.direction == "understated") {
+        EXPECT_GT(after, before) << which;
+        EXPECT_GT(percent, 0.0) << which;
+    } else if (change.direction == "overstated") {
+        EXPECT_LT(after, before) << which;
+        EXPECT_LT(percent, 0.0) << which;
+    }
+    // What was rounded to the numbers that are printed may have changed by this percentage.
+    const std::size_t point = to.find('.');
+    const double to_step = point == std::string::npos ? std::pow(10.0, std::floor(std::log10(after)) - 1.0)
+                                                      : std::pow(10.0, -static_cast<double>(to.size() - point - 1));
+    const double least = (after - to_step) / (before + from_step) - 1.0;
+    const double most = (after + to_step) / std::max(1e-300, before - from_step) - 1.0;
+    EXPECT_LE(100.0 * least, percent + 0.05) << which;
+    EXPECT_TRUE(100.0 * most >= percent - 0.05 || before <= from_step) << which;
+}
+
+TEST(AuditViewOfABudget, WordPercentageAndBothNumbersOfAChangeNeverContradictEachOther) {
+    std::mt19937 draws(7);
+    const auto uniform = [&draws](double low, double high) {
+        return low + (high - low) * static_cast<double>(draws()) / 4294967296.0;
+    };
+    const audit::Rule rule{.id = "Z01",
+                           .title = "Another u",
+                           .clause = {.text = "none"},
+                           .needs = {audit::Need::rows},
+                           .examine = first_row_is_another};
+    std::size_t left_open = 0;
+    for (int i = 0; i < 600; ++i) {
+        const int rows = 2 + static_cast<int>(uniform(0.0, 5.0)), digits = 1 + static_cast<int>(uniform(0.0, 3.0));
+        const int digits_of_U = 1 + static_cast<int>(uniform(0.0, 3.0));
+        const double scale = std::pow(10.0, std::round(uniform(-3.0, 1.0)));
+        audit::AuditedBudget budget = test::budget_of({});
+        double squares = 0.0;
+        for (int j = 0; j < rows; ++j) {
+            const double u = scale * std::pow(10.0, uniform(-0.8, 0.0));
+            audit::AuditedRow row = test::row("a" + std::to_string(j), u);
+            row.u = test::printed(to_digits(u, digits));
+            row.contribution = row.u;
+            audit::complete_row(row);
+            budget.rows.push_back(row);
+            squares += u * u;
+        }
+        const bool up = uniform(0.0, 1.0) < 0.3;
+        const double wrong = uniform(0.0, 1.0) < 0.3 ? uniform(0.9, 1.15) : 1.0;
+        const std::string U = to_digits(2.0 * wrong * std::sqrt(squares), digits_of_U, up);
+        budget.claims.U = test::printed(U);
+        budget.claims.k = test::printed("2");
+        if (uniform(0.0, 1.0) < 0.7) {
+            budget.claims.u_c = test::printed(to_digits(wrong * std::sqrt(squares), digits_of_U));
+        }
+        budget.coverage.kind = audit::CoverageRule::Kind::fixed;
+        audit::note_unexplained(budget);
+        corrected_by = uniform(0.0, 1.0) < 0.25 ? 1.0 : uniform(0.5, 1.8);
+        const audit::AuditReport report = audit::audit(test::subject_of(budget), std::vector{rule});
+        left_open += report.subject.budgets[0].within_digits != 1.0 ? 1U : 0U;
+        const AuditView view = make_audit_view(std::vector{report}, std::vector{rule}, {});
+        const AuditedResultView& result = view.files.at(0).results.at(0);
+        const std::size_t point = U.find('.');
+        const double step = point == std::string::npos
+                                ? std::pow(10.0, std::floor(std::log10(std::stod(U))) - digits_of_U + 1)
+                                : std::pow(10.0, -static_cast<double>(U.size() - point - 1));
+        // u_c and k that were rounded on the way move a U of three digits by two units.
+        const double open = digits_of_U < 3 ? step : 2.0 * step;
+        const std::string which = std::to_string(i) + ": U " + U + " → " + result.audited.U + " (" +
+                                  result.change.percent + " %), " + result.change.direction;
+        EXPECT_EQ(result.claimed.U, U);
+        expect_no_contradiction(U, open, result.audited.U, result.change, which);
+        const AuditFindingView& finding = view.files[0].findings.at(0);
+        ASSERT_TRUE(finding.effect) << which;
+        expect_no_contradiction(finding.effect->claimed.U, open, finding.effect->alone.U, finding.effect->change_alone,
+                                which + ", alone");
+    }
+    EXPECT_GT(left_open, 50U);
+}
+
+TEST(AuditViewOfABudget, DoesNotRecomputeTheDegreesOfFreedomOfAResultWithoutRows) {
+    audit::AuditedBudget budget = test::budget_of({});
+    budget.correlation_variance = 0.25;
+    budget.coverage = {.kind = audit::CoverageRule::Kind::fixed, .k = 2.37};
+    budget.claims.U = test::printed("1.2");
+    budget.claims.nu_eff = test::printed("8");
+    const auto result_of = [](const audit::AuditedBudget& one) {
+        return view_of(audit::audit(test::subject_of(one), {})).files.at(0).results.at(0);
+    };
+    const AuditedResultView result = result_of(budget);
+    EXPECT_EQ(result.claimed.nu_eff, "8");
+    EXPECT_TRUE(result.claim_nu_eff.allowed);
+    EXPECT_EQ(result.recomputed.nu_eff, "–");
+    EXPECT_EQ(result.audited.nu_eff, "–");
+    EXPECT_EQ(result.nu_eff.low, "–");
+    EXPECT_EQ(result.nu_eff.high, "–");
+    budget.claims.nu_eff.reset();
+    EXPECT_EQ(result_of(budget).claimed.nu_eff, "–");
 }
 
 TEST(AuditViewOfABudget, SortsRowsByTheirShareAndTiesFindingsToThem) {
