@@ -321,9 +321,6 @@ std::vector<outputs::OutputFile> drafted_amendment(const AffectedCertificate& on
     constexpr const char* record_name = "original_record.json";
     const DraftPlaces places(corrected.job_files);
     const std::filesystem::path folder = one.draft_name;
-    if (!corrected.certificate) {
-        return {};  // the report of a comparison is not amended
-    }
     std::map<std::string, std::string> files;
     for (const reports::InputFile& file : corrected.job_files) {
         if (std::filesystem::path(file.name).is_absolute()) {
