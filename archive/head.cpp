@@ -1,5 +1,6 @@
 #include "archive/head.h"
 
+#include <chrono>
 #include <cstddef>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -177,7 +178,21 @@ bool is_utc_time(std::string_view text) {
     for (std::size_t i = 0; is && i < text.size(); ++i) {
         is = k_form[i] == 'd' ? text[i] >= '0' && text[i] <= '9' : text[i] == k_form[i];
     }
-    return is;
+    if (!is) {
+        return false;
+    }
+    const auto number = [&](std::size_t from, std::size_t digits) {
+        int value = 0;
+        for (const char digit : text.substr(from, digits)) {
+            value = 10 * value + (digit - '0');
+        }
+        return value;
+    };
+    // The clocks that write here know no leap seconds (POSIX), and no year 0.
+    const std::chrono::year_month_day date{std::chrono::year(number(0, 4)),
+                                           std::chrono::month(static_cast<unsigned>(number(5, 2))),
+                                           std::chrono::day(static_cast<unsigned>(number(8, 2)))};
+    return date.ok() && number(0, 4) > 0 && number(11, 2) < 24 && number(14, 2) < 60 && number(17, 2) < 60;
 }
 
 Head head_from_json(std::string_view text, const std::string& name) {

@@ -79,7 +79,7 @@ private:
 [[nodiscard]] nlohmann::json to_json(const Head::Signature& signature);
 /// \return none where it is of another form
 [[nodiscard]] std::optional<Head::Signature> signature_in(const nlohmann::json& value);
-/// "2026-11-24T18:52:52Z", as entries, heads and statements have times.
+/// "2026-11-24T18:52:52Z", as entries, heads and statements have times: one that there is.
 [[nodiscard]] bool is_utc_time(std::string_view text);
 
 /// What a signature of a head is over: its canonical JSON without the signature.

@@ -310,9 +310,21 @@ std::vector<certificate::Waiver> waivers_from(const fs::path& file) {
 
 namespace {
 
+/// What a record says, held against its own job.
+audit::AuditSubject subject_of_record(const std::string& bytes, const fs::path& file, unsigned threads,
+                                      const fs::path& templates, const gum::Progress& progress) {
+    const reports::EvaluationRecord record = reports::record_from_json(bytes, file.string());
+    audit::AuditSubject subject = audit::subject_of(record, file.filename().string());
+    if (!record.certificate) {
+        subject.of_evaluation = reports::evaluation_findings(record);
+    }
+    hold_against_job(record, threads, templates, progress, subject);
+    return subject;
+}
+
 /// The audit of a file before anything in it is accepted by others than itself.
 AuditedFile audited_as_it_is(const fs::path& file, unsigned threads, const fs::path& templates,
-                             const gum::Progress& progress, const fs::path& laboratory) {
+                             const gum::Progress& progress, const fs::path& laboratory, const WithinWalls& within) {
     const std::string bytes = read_file(file);
     const std::string name = file.filename().string();
     AuditedFile audited{.file = file, .digest = encoding::sha256(bytes), .report = {}};
@@ -323,13 +335,13 @@ AuditedFile audited_as_it_is(const fs::path& file, unsigned threads, const fs::p
                 *evaluate_job(file, CovarianceFile::none, threads, templates, progress, program_kinds(), laboratory)
                      .audit;
             return audited;
-        case Contents::record: {
-            const reports::EvaluationRecord record = reports::record_from_json(bytes, file.string());
-            subject = audit::subject_of(record, name);
-            if (!record.certificate) {
-                subject.of_evaluation = reports::evaluation_findings(record);
+        case Contents::record: {  // it says itself how long its evaluation takes
+            const auto look = [&] { subject = subject_of_record(bytes, file, threads, templates, progress); };
+            if (within) {
+                within(file, look);
+            } else {
+                look();
             }
-            hold_against_job(record, threads, templates, progress, subject);
             break;
         }
         case Contents::workbook:
@@ -364,14 +376,15 @@ AuditedFile audited_as_it_is(const fs::path& file, unsigned threads, const fs::p
 
 AuditedFile audit_file(const fs::path& file, unsigned threads, const fs::path& templates, const gum::Progress& progress,
                        std::span<const certificate::Waiver> waivers, const fs::path& laboratory) {
-    AuditedFile audited = audited_as_it_is(file, threads, templates, progress, laboratory);
+    AuditedFile audited = audited_as_it_is(file, threads, templates, progress, laboratory, {});
     audit::accept_findings(audited.report, waivers, audit::all_rules());
     return audited;
 }
 
 std::vector<AuditAttempt> audit_files(const std::vector<FileToAudit>& files, unsigned threads,
                                       const fs::path& templates, const gum::Progress& progress,
-                                      std::span<const certificate::Waiver> waivers, const fs::path& laboratory) {
+                                      std::span<const certificate::Waiver> waivers, const fs::path& laboratory,
+                                      const WithinWalls& within) {
     std::vector<AuditAttempt> attempts(files.size());
     std::vector<std::vector<bool>> taken(files.size());  // waivers, of each file
     std::vector<std::size_t> tables, others;
@@ -381,7 +394,7 @@ std::vector<AuditAttempt> audit_files(const std::vector<FileToAudit>& files, uns
     }
     const auto attempt = [&](std::size_t file, const gum::Progress& told) {
         try {
-            AuditedFile audited = audited_as_it_is(files[file].file, threads, templates, told, laboratory);
+            AuditedFile audited = audited_as_it_is(files[file].file, threads, templates, told, laboratory, within);
             taken[file] = audit::take_waivers(audited.report, waivers, audit::all_rules());
             attempts[file].has_critical = audited.report.has_critical();
             attempts[file].view = reports::make_file_view(audited.report, audit::all_rules(), audited.digest);

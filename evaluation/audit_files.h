@@ -72,6 +72,9 @@ struct AuditAttempt {
     std::exception_ptr failure;                    ///< what audit_file() threw, where it is not audited
 };
 
+/// Does some work of reading a file of others within walls, which may end the process.
+using WithinWalls = std::function<void(const std::filesystem::path& file, const std::function<void()>& work)>;
+
 /// audit_file() of each of them, in their order. Tables and workbooks are audited side by side, jobs and records one after
 /// the other, which use all threads themselves; results are the same for any number of threads. Of thousands of files only
 /// what is shown of them is kept. A waiver that fits no finding of any file is told with the first one that is audited.
@@ -79,7 +82,8 @@ struct AuditAttempt {
                                                     const std::filesystem::path& templates,
                                                     const gum::Progress& progress = {},
                                                     std::span<const certificate::Waiver> waivers = {},
-                                                    const std::filesystem::path& laboratory = {});
+                                                    const std::filesystem::path& laboratory = {},
+                                                    const WithinWalls& within = {});
 
 /// Does tasks 0 … n − 1 on some threads (0: as many as the machine has), and throws what the first of them throws.
 void run_in_workers(unsigned threads, std::size_t tasks, const std::function<void(std::size_t)>& task);

@@ -50,12 +50,17 @@ void make_certificate(const EvaluationTask& task, Evaluation& evaluation,
                       const std::optional<certificate::CertificateData>& data,
                       const std::optional<certificate::Profile>& profile, const certificate::CapabilityInputs& inputs) {
     if (data && profile) {
-        const auto registered = jobs::register_of_job(task.files, task.job_file);
-        reports::certify(
-            evaluation.record, *data, *profile, inputs,
-            registered ? certificate::register_findings(*data, *registered) : std::vector<certificate::Finding>());
-        evaluation.blocked = evaluation.record.certificate->blocked;
+        certify(evaluation, *data, *profile, inputs, jobs::register_of_job(task.files, task.job_file));
     }
+}
+
+void certify(Evaluation& evaluation, const certificate::CertificateData& data, const certificate::Profile& profile,
+             const certificate::CapabilityInputs& inputs,
+             const std::optional<certificate::LaboratoryRegister>& registered) {
+    reports::certify(
+        evaluation.record, data, profile, inputs,
+        registered ? certificate::register_findings(data, *registered) : std::vector<certificate::Finding>());
+    evaluation.blocked = evaluation.record.certificate->blocked;
 }
 
 }  // namespace gumcert::evaluation

@@ -10,6 +10,7 @@
 
 #include "audit/audit.h"
 #include "certificate/certificate_data.h"
+#include "certificate/laboratory_register.h"
 #include "certificate/profile.h"
 #include "gum/quantity/progress.h"
 #include "jobs/file_source.h"
@@ -104,5 +105,9 @@ struct EvaluationTask {
 void make_certificate(const EvaluationTask& task, Evaluation& evaluation,
                       const std::optional<certificate::CertificateData>& data,
                       const std::optional<certificate::Profile>& profile, const certificate::CapabilityInputs& inputs);
+/// The same of a job whose reader has handed on what the register says of it; none where it names no laboratory.
+void certify(Evaluation& evaluation, const certificate::CertificateData& data, const certificate::Profile& profile,
+             const certificate::CapabilityInputs& inputs,
+             const std::optional<certificate::LaboratoryRegister>& registered);
 
 }  // namespace gumcert::evaluation

@@ -82,9 +82,9 @@ Evaluation evaluate_budget_job(const EvaluationTask& task) {
     }
     evaluation.record = reports::budget_record(job, result, files, covariance, evaluation.covariance_file);
     evaluation.negative = result.validation_failed;
-    if (job.certificate) {
-        make_certificate(task, evaluation, job.certificate, profile,
-                         reports::capability_inputs(job, result, task.threads));
+    if (job.certificate && profile) {
+        certify(evaluation, *job.certificate, *profile, reports::capability_inputs(job, result, task.threads),
+                job.registered);
     }
     return evaluation;
 }

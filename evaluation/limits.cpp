@@ -94,8 +94,8 @@ std::vector<Limit> limits() {
         "files of "
         "others, for every 10 MB of a file";
     constexpr std::string_view k_evaluation =
-        "the evaluation of the job in a record: archive add and amend, check and rerun; the time also archive replay, "
-        "affected and worker; archive add and amend, check and rerun at least what is given for reading the record";
+        "the evaluation of the job in a record: archive add and amend, render, audit, check and rerun; the time also "
+        "archive replay, affected and worker; but for these at least what is given for reading the record";
     return {
         {k_job, "a file", jobs::k_file_limit, k_byte},
         {k_job, "logo or symbol", jobs::k_largest_picture, k_byte},

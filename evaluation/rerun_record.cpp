@@ -23,6 +23,7 @@ namespace {
 using nlohmann::json;
 
 constexpr std::size_t k_most_lines = 100;  // for people, of one record
+constexpr const char* k_limit_reached = "GC-STORE-0024";
 
 /// Members of a record that hold no result: what was read, how, and what is said of it.
 bool holds_results(std::string_view pointer) {
@@ -169,6 +170,10 @@ const char* RerunRecord::outcome() const {
                                                                               : "same";
 }
 
+bool RerunRecord::was_ended() const {
+    return not_evaluated && not_evaluated->code == k_limit_reached;
+}
+
 bool RerunRecord::is_negative() const {
     return not_evaluated || count(ChangeKind::printed) > 0 || count(ChangeKind::verdict) > 0;
 }
@@ -205,16 +210,22 @@ RerunRecord rerun_record(const std::string& text, const std::string& name, unsig
         }
         rerun.not_evaluated = error.diagnostics().front();
         return rerun;
+    } catch (const gum::StorageError& error) {
+        if (error.diagnostics().front().code != k_limit_reached) {
+            throw;
+        }
+        rerun.not_evaluated = error.diagnostics().front();
+        return rerun;
     }
     tell_changes(before, reports::to_json_value(evaluated), rerun);
     return rerun;
 }
 
-std::string rerun_text(std::span<const RerunRecord> records) {
+std::string rerun_text(std::span<const RerunRecord> records, std::size_t refused) {
     std::string all;
     std::size_t same = 0;
     std::size_t changed = 0;
-    std::size_t not_evaluated = 0;
+    std::size_t not_evaluated = refused;
     for (const RerunRecord& record : records) {
         all += text::visible(record.name, 200) + " (" + record.kind + ", made by " +
                text::visible(maker(record.made_by), 120) + "): ";
@@ -231,8 +242,8 @@ std::string rerun_text(std::span<const RerunRecord> records) {
                                       : "the same in every printed digit and verdict; changed: " + counts + "\n";
         add_changes(all, record);
     }
-    return all + "\n" + text::count_of(static_cast<std::int64_t>(records.size()), "record") +
-           " evaluated with version " + std::string(k_version) + " (commit " + std::string(k_commit) +
+    return all + "\n" + text::count_of(static_cast<std::int64_t>(records.size() + refused), "record") +
+           ", evaluated with version " + std::string(k_version) + " (commit " + std::string(k_commit) +
            "): " + std::to_string(same) + " with the same printed digits and verdicts, " + std::to_string(changed) +
            " changed, " + std::to_string(not_evaluated) + " not evaluated\n";
 }

@@ -49,6 +49,8 @@ struct RerunRecord {
     [[nodiscard]] std::size_t count(ChangeKind of) const { return counts.at(static_cast<std::size_t>(of)); }
     /// "same", "numbers" where unrounded numbers alone changed, "changed", "not_evaluated".
     [[nodiscard]] const char* outcome() const;
+    /// A limit ended its evaluation, which says nothing of the record.
+    [[nodiscard]] bool was_ended() const;
     /// A printed digit or a verdict changed, or nothing could be evaluated.
     [[nodiscard]] bool is_negative() const;
 };
@@ -57,7 +59,8 @@ struct RerunRecord {
 void tell_changes(const nlohmann::json& before, const nlohmann::json& now, RerunRecord& rerun);
 
 /// Evaluates the job in a record with this version of the program and compares. The version that made the record does not
-/// matter; its own digest, where it states one, and those of its files do.
+/// matter; its own digest, where it states one, and those of its files do. Where `progress` ends it with GC-STORE-0024, or the
+/// job is refused, it is not evaluated.
 /// \param text  of the record
 /// \param name  for messages
 /// \throws gum::InputError  what record_from_json() refuses, and GC-RECORD-0023 if a file is not that of its digest
@@ -66,7 +69,8 @@ void tell_changes(const nlohmann::json& before, const nlohmann::json& now, Rerun
                                        std::span<const Kind> kinds = program_kinds());
 
 /// For people: what changed in numbers, digits and verdicts; other changes are counted.
-[[nodiscard]] std::string rerun_text(std::span<const RerunRecord> records);
+/// \param refused  how many more were asked for, and are no records that can be read
+[[nodiscard]] std::string rerun_text(std::span<const RerunRecord> records, std::size_t refused = 0);
 /// For programs, schema gumcert/rerun/1: all changes.
 [[nodiscard]] std::string rerun_json(std::span<const RerunRecord> records);
 /// One row a change, and one of each record without any.

@@ -133,6 +133,14 @@ def is_extended(earlier, earlier_root, size, root, proof):
     return last == 0 and old == earlier_root and new == root
 
 
+def is_time(at):
+    """A time in the one form, on a day that there is; without leap seconds, which the clocks that write do not know."""
+    try:
+        return bool(TIME.fullmatch(at) and datetime.datetime(*(int(part) for part in re.findall(rb"[0-9]+", at))))
+    except ValueError:
+        return False
+
+
 def latest_time():
     """The latest time that has come by this clock or by one that differs from it by five minutes."""
     return (datetime.datetime.now(datetime.timezone.utc) + datetime.timedelta(minutes=5)).strftime("%Y-%m-%dT%H:%M:%SZ").encode()
@@ -327,7 +335,7 @@ class Rules:
             return "a text with control characters"
         if not names["actor"]:
             return "nobody is named"
-        if not TIME.fullmatch(entry["at"]):
+        if not is_time(entry["at"]):
             return "the time has another form"
         if names["record"] and not DIGEST.fullmatch(names["record"]):
             return "the record is not named by its SHA-256"
@@ -336,7 +344,7 @@ class Rules:
         if entry["at"] < self.last_at:
             return "it is earlier than the entry before"
         clock = text(body, "clock").encode()
-        if body.get("clock") is not None and (not TIME.fullmatch(clock) or clock >= entry["at"]):
+        if body.get("clock") is not None and (not is_time(clock) or clock >= entry["at"]):
             return "its clock is no time before its own"
         if self.due and (kind, number) != self.due[:2]:
             return f"\"{self.due[0]}\" {self.due[1]} is missing before it"
@@ -566,7 +574,7 @@ class Head:
             self.extends = extension(value["extends"]) if "extends" in value else None
         except (KeyError, TypeError) as missing:
             raise ValueError("no head of an archive") from missing
-        if self.size < 1 or not TIME.fullmatch(self.at) or (self.extends and self.extends[0] < 1):
+        if self.size < 1 or not is_time(self.at) or (self.extends and self.extends[0] < 1):
             raise ValueError("no head of an archive")
         self.signed = canonical({key: value[key] for key in ("archive", "at", "chain", "root", "schema", "size")})
 
@@ -799,7 +807,7 @@ class States:
         return numbers
 
     def faults(self, head, lives, entries):
-        if not TIME.fullmatch(self.at.encode()) or self.at.encode() < head.at:
+        if not is_time(self.at.encode()) or self.at.encode() < head.at:
             yield "statement of states: its time is before that of the head"
         if head.signature is None or head.signature[0] != self.signature[0]:
             yield "statement of states: is signed with another key than the head"

@@ -11,11 +11,13 @@
 #include <string_view>
 #include <utility>
 
+#include "app/cli/terminal/interruption.h"
 #include "app/cli/terminal/output_places.h"
 #include "app/cli/terminal/share_folder.h"
 #include "audit/rules/registry.h"
 #include "evaluation/audit_evaluation.h"
 #include "evaluation/audit_files.h"
+#include "evaluation/limits.h"
 #include "evaluation/name_job.h"
 #include "outputs/kept_files.h"
 #include "outputs/output_files.h"
@@ -181,7 +183,11 @@ ExitCode audit_files(const std::vector<std::string>& files, const AuditOptions& 
     ProgressLine progress(!common.quiet);
     std::vector<evaluation::AuditAttempt> attempts = evaluation::audit_files(
         files_to_audit.files, static_cast<unsigned>(common.threads), templates,
-        [&](const std::string& text) { progress(text); }, waivers, options.laboratory);
+        [&](const std::string& text) { progress(text); }, waivers, options.laboratory,
+        [&](const fs::path& file, const std::function<void()>& work) {
+            work_within_walls(common, evaluation::walls_of_evaluation({file}),
+                              "for the evaluation of " + text::one_line(file.string()), work);
+        });
     for (std::size_t i = 0; i < attempts.size(); ++i) {
         evaluation::AuditAttempt& attempt = attempts[i];
         const ExitCode one = explained(common, [&] {

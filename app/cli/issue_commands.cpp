@@ -14,12 +14,14 @@
 #include <utility>
 
 #include "app/cli/terminal/clock.h"
+#include "app/cli/terminal/interruption.h"
 #include "app/cli/terminal/output_places.h"
 #include "app/cli/terminal/share_folder.h"
 #include "archive/printed_head.h"
 #include "evaluation/audit_evaluation.h"
 #include "evaluation/check_file.h"
 #include "evaluation/evaluate_job.h"
+#include "evaluation/limits.h"
 #include "evaluation/name_job.h"
 #include "evaluation/needed_memory.h"
 #include "evaluation/read_file.h"
@@ -279,9 +281,13 @@ ExitCode render_record(const std::string& name, const std::string& format, const
         issuer.require_ready();  // before the job of the record is evaluated again
     }
     ProgressLine progress(!common.quiet);
-    const std::optional<gum::Diagnostic> unchecked = evaluation::recompute_record(
-        record, name, static_cast<unsigned>(common.threads), templates_folder(options.share),
-        [&](const std::string& text) { progress("checking the record: " + text); });
+    std::optional<gum::Diagnostic> unchecked;
+    work_within_walls(common, evaluation::walls_of_evaluation({name}), "for the evaluation of " + text::one_line(name),
+                      [&] {  // the record may be one of others
+                          unchecked = evaluation::recompute_record(
+                              record, name, static_cast<unsigned>(common.threads), templates_folder(options.share),
+                              [&](const std::string& text) { progress("checking the record: " + text); });
+                      });
     progress.clear();
     if (unchecked && !print_as_unchecked(record, *unchecked, options, common)) {
         return negative_answer;

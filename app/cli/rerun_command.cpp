@@ -7,6 +7,7 @@
 #include "app/cli/terminal/share_folder.h"
 #include "evaluation/read_file.h"
 #include "evaluation/rerun_record.h"
+#include "gum/quantity/diagnostic.h"
 #include "text/visible_text.h"
 
 namespace gumcert::cli {
@@ -23,6 +24,9 @@ ExitCode rerun_records(const std::vector<std::string>& records, const std::strin
                 evaluation::read_file(name), name, static_cast<unsigned>(common.threads), templates,
                 progress_within_walls(common, text::one_line(name),
                                       [&](const std::string& text) { progress(name + ": " + text); }, {name})));
+            if (all.back().was_ended()) {
+                throw gum::StorageError(*all.back().not_evaluated);
+            }
             return all.back().is_negative() ? negative_answer : done;
         });
         code = std::max(code, one);
@@ -31,7 +35,7 @@ ExitCode rerun_records(const std::vector<std::string>& records, const std::strin
     if (!all.empty()) {
         write_to_stdout(format == "json"  ? evaluation::rerun_json(all)
                         : format == "csv" ? evaluation::rerun_csv(all)
-                                          : evaluation::rerun_text(all));
+                                          : evaluation::rerun_text(all, records.size() - all.size()));
     }
     return code;
 }

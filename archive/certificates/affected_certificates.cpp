@@ -321,9 +321,6 @@ std::vector<outputs::OutputFile> drafted_amendment(const AffectedCertificate& on
     constexpr const char* record_name = "original_record.json";
     const DraftPlaces places(corrected.job_files);
     const std::filesystem::path folder = one.draft_name;
-    if (!corrected.certificate) {
-        return {};  // the report of a comparison is not amended
-    }
     std::map<std::string, std::string> files;
     for (const reports::InputFile& file : corrected.job_files) {
         if (std::filesystem::path(file.name).is_absolute()) {
@@ -634,7 +631,11 @@ std::string affected_text(const std::vector<AffectedCertificate>& affected) {
                     text::in_quotes(change.now) + "\n";
         }
     }
-    return text + text::count_of(static_cast<std::int64_t>(affected.size()), "certificate") + " affected\n";
+    const auto unknown = std::count_if(affected.begin(), affected.end(), [](const AffectedCertificate& one) {
+        return one.recalculated && one.recalculated->rerun.not_evaluated;
+    });
+    return text + text::count_of(static_cast<std::int64_t>(affected.size()), "certificate") + " affected" +
+           (unknown > 0 ? ", " + std::to_string(unknown) + " of which could not be calculated again" : "") + "\n";
 }
 
 std::string affected_json(const std::vector<AffectedCertificate>& affected, const WrongStandard& standard) {

@@ -17,6 +17,7 @@
 #include "encoding/sha2.h"
 #include "evaluation/read_file.h"
 #include "evaluation/recompute_record.h"
+#include "evaluation/rerun_record.h"
 #include "imports/foreign_certificate.h"
 #include "issuing/document_identity.h"
 #include "outputs/output_set.h"
@@ -33,6 +34,7 @@
 #include "reports/forms/render.h"
 #include "reports/printable_text.h"
 #include "reports/record/make/certificate/amended_record.h"
+#include "reports/record/record_value.h"
 #include "signing/verify.h"
 #include "text/lists.h"
 #include "text/visible_text.h"
@@ -567,6 +569,40 @@ std::string worded(const certificate::LocalisedText& text, const certificate::Ce
     return text.in(data.languages.empty() ? "en" : data.languages.front());
 }
 
+/// SHA-256 of the record of the original that the job of an amendment was compared with; "" where it names none.
+std::string sha256_of_compared(const reports::EvaluationRecord& record, const certificate::Amendment& stated) {
+    if (record.certificate) {
+        return record.certificate->amended_record_sha256;
+    }
+    const auto file = std::find_if(record.job_files.begin(), record.job_files.end(),
+                                   [&](const reports::InputFile& one) { return one.name == stated.record; });
+    return file == record.job_files.end() ? "" : file->sha256;
+}
+
+/// What the report of a comparison states otherwise than an earlier one: texts, verdicts and numbers as they are printed. Left out
+/// are number, date of issue and the amendment itself, which always differ.
+std::vector<certificate::Change> changes_of_report(const reports::EvaluationRecord& earlier,
+                                                   const reports::EvaluationRecord& later) {
+    evaluation::RerunRecord found;
+    evaluation::tell_changes(reports::to_json_value(earlier), reports::to_json_value(later), found);
+    std::vector<certificate::Change> changes;
+    for (evaluation::RecordChange& change : found.changes) {
+        const std::string_view place = change.place;
+        const bool is_of_report =
+            place.starts_with("/comparison/") || place.starts_with("/title") || place == "/coverage_probability";
+        const bool differs_always = place == "/comparison/issuer/number" || place == "/comparison/issuer/issued" ||
+                                    place.starts_with("/comparison/issuer/amendment");
+        if (is_of_report && !differs_always && change.kind != evaluation::ChangeKind::number) {
+            const bool is_text = change.kind == evaluation::ChangeKind::other;
+            changes.push_back({.kind = is_text ? "text" : word_of(change.kind),
+                               .where = std::move(change.place),
+                               .before = std::move(change.before),
+                               .after = std::move(change.now)});
+        }
+    }
+    return changes;
+}
+
 }  // namespace
 
 certificate::CertificateData stated_identity(const reports::EvaluationRecord& record) {
@@ -580,6 +616,7 @@ certificate::CertificateData stated_identity(const reports::EvaluationRecord& re
         data.dates.issued = issuer.issued;
         data.status = "not_accredited";
         data.languages = record.comparison->languages;
+        data.amendment = issuer.amendment;
     }
     return data;
 }
@@ -650,8 +687,7 @@ CheckedDraft checked_draft(const fs::path& record_file, const std::vector<fs::pa
 }
 
 void state_amendment(CheckedDraft& amendment, const std::string& original) {
-    const certificate::Certificate& later = *amendment.record.certificate;
-    const certificate::Amendment& stated = *later.data.amendment;
+    const certificate::Amendment stated = *stated_identity(amendment.record).amendment;
     const auto refuse = [&](std::string what, std::string rule, std::string action) {
         throw gum::InputError(gum::Diagnostic{.code = "GC-ARCHIVE-0035",
                                               .where = amendment.draft.number,
@@ -659,26 +695,36 @@ void state_amendment(CheckedDraft& amendment, const std::string& original) {
                                               .rule = std::move(rule),
                                               .action = std::move(action)});
     };
-    if (!later.amended_record_sha256.empty() && later.amended_record_sha256 != encoding::sha256(original)) {
+    if (const std::string compared = sha256_of_compared(amendment.record, stated);
+        !compared.empty() && compared != encoding::sha256(original)) {
         refuse("was compared with another record of \"" + stated.number + "\" than the archived one",
                "an amendment is compared with what was issued",
                "take the record of the original out of the archive, and evaluate the job again");
     }
     const reports::EvaluationRecord earlier = reports::record_from_json(original, "record of " + stated.number);
-    if (!earlier.certificate) {
-        refuse("amends \"" + stated.number + "\", which is the report of a comparison", "certificates are amended",
-               "withdraw the report, and add the corrected one under a number of its own");
+    const bool is_report = !amendment.record.certificate;
+    if (is_report != !earlier.certificate) {
+        refuse("amends \"" + stated.number + "\", which is " +
+                   (is_report ? "a certificate" : "the report of a comparison"),
+               "certificates amend certificates, and reports of comparisons such reports",
+               "correct the number of the original, or add it under a number of its own");
+    }
+    if (is_report && (stated.reason.empty() || stated.changes.empty())) {
+        refuse(stated.reason.empty() ? "states no reason" : "does not state what has changed",
+               "an amended report says what has changed, and why (ISO/IEC 17025:2017, 7.8.8.1)",
+               "state \"reason\" and \"changes\" of the amendment in the certificate data of the job");
     }
     amendment.draft.amends = Draft::Amends{.number = stated.number, .kind = stated.kind, .changes = {}};
-    for (const certificate::Change& change : reports::changes_between(earlier, amendment.record)) {
+    for (const certificate::Change& change : is_report ? changes_of_report(earlier, amendment.record)
+                                                       : reports::changes_between(earlier, amendment.record)) {
         amendment.draft.amends->changes.push_back({change.kind, change.where, change.before, change.after});
     }
     if (amendment.draft.amends->changes.empty()) {
-        refuse(
-            "differs from \"" + stated.number +
-                "\" in nothing that is compared: not in texts of the certificate data, and not in what its tables of "
-                "results show; the order of rows, and annexes, are not compared",
-            "an amendment changes something", "change what is to be amended, or do not amend it");
+        refuse("differs from \"" + stated.number + "\" in nothing that is compared: " +
+                   (is_report ? "in no text, verdict and printed number of the report"
+                              : "not in texts of the certificate data, and not in what its tables of "
+                                "results show; the order of rows, and annexes, are not compared"),
+               "an amendment changes something", "change what is to be amended, or do not amend it");
     }
 }
 

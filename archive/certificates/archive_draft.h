@@ -53,7 +53,7 @@ struct CheckedDraft {
 /// Puts the machine-made list of changes into the draft of an amendment.
 /// \param original  bytes of the archived record of the certificate that it names
 /// \throws gum::InputError  GC-ARCHIVE-0035 where it was compared with another record than the archived one, nothing has
-///                          changed, or the original is the report of a comparison
+///                          changed, or one of the two is the report of a comparison and the other one is none
 void state_amendment(CheckedDraft& amendment, const std::string& original);
 
 /// Whether a certificate may be issued today.

@@ -120,6 +120,11 @@ std::size_t same_again(const Replays& replays) {
         std::count_if(replays.begin(), replays.end(), [](const auto& one) { return one.second.differences.empty(); }));
 }
 
+std::size_t not_evaluated(const Replays& replays) {
+    return static_cast<std::size_t>(
+        std::count_if(replays.begin(), replays.end(), [](const auto& one) { return !one.second.evaluated; }));
+}
+
 std::string replay_text(const Replays& replays, const std::string& program) {
     std::string text;
     for (const auto& [number, one] : replays) {
@@ -129,8 +134,9 @@ std::string replay_text(const Replays& replays, const std::string& program) {
                                                     : "NOT DONE ",
                             text::one_line(one.made_by));
     }
-    return text + fmt::format("{} of {} records give the same with gumcert {}\n", same_again(replays), replays.size(),
-                              program);
+    const std::size_t not_done = not_evaluated(replays);
+    return text + fmt::format("{} of {} records give the same with gumcert {}{}\n", same_again(replays), replays.size(),
+                              program, not_done > 0 ? fmt::format("; {} not evaluated", not_done) : "");
 }
 
 nlohmann::json replay_json(const Replays& replays, const std::string& program) {
@@ -146,6 +152,7 @@ nlohmann::json replay_json(const Replays& replays, const std::string& program) {
             {"program", program},
             {"records", replays.size()},
             {"same", same_again(replays)},
+            {"not_evaluated", not_evaluated(replays)},
             {"certificates", list}};
 }
 

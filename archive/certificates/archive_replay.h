@@ -46,6 +46,8 @@ struct Replay {
 using Replays = std::vector<std::pair<std::string, Replay>>;
 /// How many give the same as they did.
 [[nodiscard]] std::size_t same_again(const Replays& replays);
+/// How many this program makes nothing of, or a limit has ended.
+[[nodiscard]] std::size_t not_evaluated(const Replays& replays);
 /// A line for each, and one for all.
 /// \param program  that evaluated them, "0.1.0 (commit …)"
 [[nodiscard]] std::string replay_text(const Replays& replays, const std::string& program);

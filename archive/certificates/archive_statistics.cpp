@@ -175,7 +175,7 @@ public:
             count(found_.by_month, life.issued_at.substr(0, 7));
             count(found_.by_authoriser, life.authorised_by);
         }
-        found_.amendments += gumcert::json::part_of(data, "amendment").is_object() ? 1U : 0U;
+        found_.amendments += lives_.at(certificate.number).amends.empty() ? 0U : 1U;  // reports of comparisons, too
         const std::string done = gumcert::json::text_of(dates, "performed_to");
         const std::string day = done.empty() ? gumcert::json::text_of(dates, "performed_from") : done;
         if (!states_its_measurement(lives_.at(certificate.number))) {

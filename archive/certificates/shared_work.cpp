@@ -1,5 +1,6 @@
 #include "archive/certificates/shared_work.h"
 
+#include <atomic>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -148,7 +149,8 @@ std::size_t ArchiveWorker::do_some(const SharedWork& work) {
     if (work.kind != k_recalculation && work.kind != k_replay) {
         throw std::logic_error("work of a kind that this version does not know: " + work.kind);
     }
-    return table_.do_some(work.id, k_tasks_of_a_thread * threads_.size(), [&](const std::vector<WorkTask>& tasks) {
+    std::atomic<std::size_t> not_evaluated = 0;
+    const auto work_at = [&](const std::vector<WorkTask>& tasks) {
         std::vector<std::string> records;  // the archive is asked by one thread
         std::vector<json> inputs;
         for (const WorkTask& task : tasks) {
@@ -156,15 +158,27 @@ std::size_t ArchiveWorker::do_some(const SharedWork& work) {
             records.push_back(archive_.content(gumcert::json::text_of(inputs.back(), "record")).value_or(""));
         }
         std::vector<std::string> results(tasks.size());
+        not_evaluated = 0;  // the table may ask again
         threads_.run(tasks.size(), [&](unsigned /*worker*/, std::size_t i) {
-            results[i] = work.kind == k_replay
-                             ? as_text(replay_record(records[i], tasks[i].name, 1, templates_,
-                                                     watch_ ? watch_() : gum::Progress()))
-                             : as_text(recalculation_of(tasks[i].name, gumcert::json::text_of(inputs[i], "waits_for"),
-                                                        records[i], correction));
+            bool is_evaluated = false;
+            if (work.kind == k_replay) {
+                const Replay replay =
+                    replay_record(records[i], tasks[i].name, 1, templates_, watch_ ? watch_() : gum::Progress());
+                is_evaluated = replay.evaluated;
+                results[i] = as_text(replay);
+            } else {
+                const Recalculation again = recalculation_of(
+                    tasks[i].name, gumcert::json::text_of(inputs[i], "waits_for"), records[i], correction);
+                is_evaluated = !again.rerun.not_evaluated;
+                results[i] = as_text(again);
+            }
+            not_evaluated += is_evaluated ? 0 : 1;
         });
         return results;
-    });
+    };
+    const std::size_t done = table_.do_some(work.id, k_tasks_of_a_thread * threads_.size(), work_at);
+    not_evaluated_ += not_evaluated;
+    return done;
 }
 
 void ArchiveWorker::finish(const WorkToShare& shared, const std::function<void()>& wait,

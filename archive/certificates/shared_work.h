@@ -48,6 +48,8 @@ public:
     /// Does some tasks that nobody else has.
     /// \return how many; 0 where none is left, or others have them
     std::size_t do_some(const SharedWork& work);
+    /// How many of those that it did were not evaluated, as where a limit ended them.
+    [[nodiscard]] std::size_t not_evaluated() const { return not_evaluated_; }
     /// Shares work with all other workers until it is done. Work that was begun before goes on.
     /// \param wait  is called where others have the last tasks
     void finish(const WorkToShare& shared, const std::function<void()>& wait, const gum::Progress& progress);
@@ -58,6 +60,7 @@ private:
     gum::WorkerThreads threads_;
     std::filesystem::path templates_;
     std::function<gum::Progress()> watch_;
+    std::size_t not_evaluated_ = 0;
 };
 
 /// Puts the results of shared work into the certificates, and ranks them.

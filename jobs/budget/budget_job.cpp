@@ -112,6 +112,7 @@ private:
         }
         check_sections(inputs);
         job_.certificate = read_certificate(files_, *document_, *problems_, &laboratory);
+        job_.registered = job_.certificate ? laboratory.registered() : std::nullopt;
         read_tables(parts, *document_, inputs, job_, *problems_);
         warn_of_unused();
     }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "certificate/certificate_data.h"
+#include "certificate/laboratory_register.h"
 #include "certificate/localised_text.h"
 #include "certificate/point_tables.h"
 #include "gum/budget/budget.h"
@@ -43,7 +44,9 @@ struct BudgetJob : gum::Budget {
     std::set<std::string> own_components;
     nlohmann::json document;
     std::optional<certificate::CertificateData> certificate;  ///< from the job or a file of its own
-    std::vector<std::string> files;                           ///< names as the job gives them, each once, the job first
+    std::optional<certificate::LaboratoryRegister>
+        registered;                  ///< as of register_of_job(), where there is a certificate
+    std::vector<std::string> files;  ///< names as the job gives them, each once, the job first
     std::vector<gum::Diagnostic> warnings;
 };
 

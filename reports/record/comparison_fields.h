@@ -369,6 +369,7 @@ void describe(Archive& a, Struct& r) {
     a("laboratory", r.laboratory);
     a("number", r.number);
     a("issued", r.issued);
+    a.stated("amendment", r.amendment);
 }
 
 template <class Archive, certificate::Described<BudgetFile> Struct>

@@ -463,6 +463,8 @@ struct ComparisonIssuer {
     certificate::LocalisedText laboratory;
     std::string number;
     std::string issued;  ///< "2026-11-21"
+    /// Of a report that amends or replaces another one (ISO/IEC 17025:2017, 7.8.8).
+    std::optional<certificate::Amendment> amendment = {};
 };
 
 /// The file that is the budget of a laboratory. Its name tells whose it is, so documents that must not name laboratories

@@ -28,6 +28,16 @@ Facts who_and_when(const Wording& words, const EvaluationRecord& record) {
     add_fact(facts, words("comparison", "laboratory"), words.localised(issuer.laboratory));
     add_fact(facts, words("comparison", "number"), issuer.number);
     add_fact(facts, words("comparison", "issued"), issuer.issued);
+    if (issuer.amendment) {
+        const certificate::Amendment& amendment = *issuer.amendment;
+        add_fact(facts, words("comparison", "amendment"),
+                 words.filled("comparison", amendment.kind == "replaced" ? "replaces_report" : "amends_report",
+                              {{"number", amendment.number}}));
+        add_fact(facts, words("comparison", "amendment_reason"), words.localised(amendment.reason));
+        for (const certificate::LocalisedText& change : amendment.changes) {
+            add_fact(facts, words("comparison", "amendment_change"), words.localised(change));
+        }
+    }
     return facts;
 }
 

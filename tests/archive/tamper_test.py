@@ -6,10 +6,12 @@
 - no false alarm: N valid archives of chance are sound for both, against a head, too
 - every flipped bit that changes what is stored is found; one that changes nothing that is stored may be found, too
 - the kinds of attacks below are found, those that need a head only with one
+- times that no clock says are found, in entries and in what their own clock said, and no others
 - both verifiers have the same verdict on all of them
 """
 
 import argparse
+import calendar
 import collections
 import importlib.util
 import json
@@ -310,6 +312,52 @@ def attack(path, what, rng, restore=True):
     database.close()
 
 
+def time_of_chance(rng, first_year, last_year):
+    """A text of the form of times, and whether a clock can say it."""
+    year, month, day, *clock = parts = [rng.randint(first_year, last_year), rng.randint(1, 12), rng.randint(1, 28), rng.randrange(24), rng.randrange(60),
+                                        rng.randrange(60)]
+    if rng.randrange(3):
+        place = rng.randrange(1, 6)
+        parts[place] = rng.choice([(0, 2, 12, 13, 99), (0, 28, 29, 30, 31, 32), (23, 24, 25), (59, 60, 61), (59, 60, 61)][place - 1])
+    year, month, day, *clock = parts
+    exists = 1 <= month <= 12 and 1 <= day <= calendar.monthrange(year, month)[1] and clock[0] < 24 and clock[1] < 60 and clock[2] < 60
+    return "{:04}-{:02}-{:02}T{:02}:{:02}:{:02}Z".format(*parts), exists
+
+
+def times_of_clocks(judges, driver, folder, rng, rounds):
+    """Of the last entry, which may be as late as it likes, and of the clock of any entry, which is in its year or before."""
+    store, spoiled, seed = folder / "clocks.archive", folder / "spoiled.archive", 0
+    while not store.exists() or prints_heads(store):
+        store.unlink(missing_ok=True)
+        subprocess.run([driver, "make", store, str(seed), "8"], check=True)
+        seed += 1
+    counts = collections.Counter()
+    for round_ in range(rounds):
+        is_of_clock = bool(rng.randrange(2))
+        text, exists = time_of_chance(rng, 1, 2025) if is_of_clock else time_of_chance(rng, 2030, 9998)
+
+        def change(_rng, db):
+            log = entries(db)
+            # The entry behind one after a wrong clock has its time.
+            free = [i for i, (one, after) in enumerate(zip(log, log[1:])) if i > 0 and one["kind"] != "numbered" and '"clock"' not in after["body"]]
+            index = rng.choice(free) if is_of_clock else len(log) - 1
+            body = json.loads(log[index]["body"])
+            body.pop("clock", None)
+            if is_of_clock:
+                body["clock"], log[index]["at"] = text, log[index - 1]["at"]
+            else:
+                log[index]["at"] = text
+            log[index]["body"] = json.dumps(body)
+            rewrite(db, log)
+            list_again(db)
+
+        shutil.copy(store, spoiled)
+        attack(spoiled, change, rng)
+        judges.agree(spoiled, None, f"{'the clock' if is_of_clock else 'the time'} {text}, round {round_}", sound=exists)
+        counts[is_of_clock, exists] += 1
+    expect(len(counts) == 4 and min(counts.values()) > rounds / 20, f"times of chance: {counts}")
+
+
 def refused_by_triggers(path):
     """Plain SQL on an archive as it is."""
     for name, sql in {
@@ -399,6 +447,8 @@ def main():
         judges.agree(spoiled, None, "without triggers", sound=False)
         for other_store, other_head in sound[:3]:
             judges.agree(other_store, base_head, "a head of another archive", sound=False)
+
+        times_of_clocks(judges, options.driver, folder, rng, 60)
 
         small = folder / "small.archive"
         subprocess.run([options.driver, "make", small, str(options.seed + 7), "12"], check=True)

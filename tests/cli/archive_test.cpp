@@ -30,7 +30,7 @@ protected:
         fs::copy(fs::path(GUMCERT_SOURCE_DIR) / "examples" / "certificate", folder(),
                  fs::copy_options::recursive | fs::copy_options::overwrite_existing);
     }
-    [[nodiscard]] std::string path(const char* name) const { return (folder() / name).string(); }
+    [[nodiscard]] std::string path(const std::string& name) const { return (folder() / name).string(); }
     [[nodiscard]] std::string store() const { return path("lab.archive"); }
 
     /// `gumcert archive` on the store of the test.
@@ -222,7 +222,7 @@ TEST_F(ArchiveOfALaboratory, KeepsTheReportOfAComparison) {
     write_bytes(page, changed);
     EXPECT_TRUE(tells(archive({"add", record, page}, "R. Lin"), "[GC-ARCHIVE-0038]"));
     write_bytes(page, text);
-    EXPECT_TRUE(tells(archive({"amend", record, page}, "R. Lin"), "is the record of a comparison"));
+    EXPECT_TRUE(tells(archive({"amend", record, page}, "R. Lin"), "amends no certificate"));
     ended = archive({"add", record, page}, "R. Lin");
     ASSERT_EQ(ended.code, 0) << ended.err;
     lead_to_issue("CMP-2026-3");
@@ -241,6 +241,143 @@ TEST_F(ArchiveOfALaboratory, KeepsTheReportOfAComparison) {
     EXPECT_EQ(verified_elsewhere({evidence, page}).code, 0);
     const Ended audited = gumcert({"audit", record, "--format", "json", "--share", GUMCERT_SOURCE_DIR});
     EXPECT_EQ(audited.out.find("\"N07\""), std::string::npos) << "the stability is stated";
+}
+
+// An amended report refers to the first one, which it supersedes (ISO/IEC 17025:2017, 7.8.8).
+TEST_F(ArchiveOfALaboratory, AmendsTheReportOfAComparison) {
+    begin();
+    json job = {
+        {"schema", "gumcert/job/1"},
+        {"kind", "comparison"},
+        {"title", "Comparison of gauge blocks"},
+        {"unit", "um"},
+        {"assigned_value", {{"value", 12.2}, {"U", 0.1}, {"k", 2}}},
+        {"artefact_stability", "no change in two years, in U(X)"},
+        {"certificate",
+         {{"number", "CMP-2026-3"},
+          {"laboratory", {{"name", "Example Institute"}}},
+          {"languages", {"en"}},
+          {"dates", {{"issued", "2026-11-02"}}}}},
+        {"participants", {{{"id", "A"}, {"value", 12.31}, {"u", 0.10}}, {{"id", "B"}, {"value", 12.18}, {"u", 0.12}}}}};
+    const auto made = [&](const std::string& name) {
+        write_bytes(folder() / (name + ".json"), job.dump());
+        Ended ended = gumcert(
+            {"evaluate", path(name + ".json"), "-o", path(name + "-record.json"), "--share", GUMCERT_SOURCE_DIR, "-q"});
+        EXPECT_EQ(ended.code, 0) << ended.err;
+        ended = gumcert({"render", path(name + "-record.json"), "--format", "html", "-o", path(name + ".html"),
+                         "--share", GUMCERT_SOURCE_DIR, "-q"});
+        EXPECT_EQ(ended.code, 0) << ended.err;
+        return std::vector<std::string>{path(name + "-record.json"), path(name + ".html")};
+    };
+    const auto brought_in = [&](const char* action, const std::vector<std::string>& files) {
+        return archive({action, files[0], files[1]}, "R. Lin");
+    };
+    ASSERT_EQ(brought_in("add", made("first")).code, 0);
+    lead_to_issue("CMP-2026-3");
+
+    job["certificate"]["number"] = "CMP-2026-3/A1";
+    job["certificate"]["amendment"] = {{"kind", "replaced"},
+                                       {"number", "CMP-2026-3"},
+                                       {"reason", "Two digits of laboratory A were exchanged."},
+                                       {"changes", {"value of laboratory A"}},
+                                       {"record", "first-record.json"}};
+    EXPECT_TRUE(tells(brought_in("amend", made("same")), "[GC-ARCHIVE-0035]")) << "nothing has changed";
+    job["participants"][0]["value"] = 12.13;
+    const std::vector<std::string> files = made("second");
+    const std::string page = bytes_of(files[1]);
+    for (const char* const text : {"This report replaces comparison report CMP-2026-3.",
+                                   "Two digits of laboratory A were exchanged.", "value of laboratory A"}) {
+        EXPECT_NE(page.find(text), std::string::npos) << text;
+    }
+    EXPECT_TRUE(tells(brought_in("add", files), "use amend"));
+    json& amendment = job["certificate"]["amendment"];
+    for (const char* const key : {"reason", "changes"}) {
+        const json stated = amendment[key];
+        amendment.erase(key);
+        EXPECT_TRUE(tells(brought_in("amend", made("silent")), "7.8.8.1")) << key;
+        amendment[key] = stated;
+    }
+    const Ended amended = brought_in("amend", files);
+    ASSERT_EQ(amended.code, 0) << amended.err;
+    const json entry = shown({"show", "CMP-2026-3/A1"})["entries"][0]["body"];
+    EXPECT_EQ(entry["why"], "Two digits of laboratory A were exchanged.");
+    bool tells_value = false;
+    for (const json& change : entry["amends"]["changes"]) {
+        tells_value = tells_value || (change["before"] == "12.31" && change["after"] == "12.13");
+        const std::string where = change["where"];
+        EXPECT_EQ(where.find("/issuer/number"), std::string::npos) << "it always differs";
+    }
+    EXPECT_TRUE(tells_value) << entry["amends"]["changes"].dump(1);
+    lead_to_issue("CMP-2026-3/A1");
+    EXPECT_EQ(shown({"show", "CMP-2026-3"})["state"], "superseded");
+    EXPECT_EQ(shown({"show", "CMP-2026-3"})["amended_by"], "CMP-2026-3/A1");
+    EXPECT_EQ(shown({"statistics"})["amendments"], 1);
+    EXPECT_EQ(archive({"verify"}).code, 0);
+    EXPECT_EQ(archive({"replay"}).code, 0);
+    EXPECT_EQ(verified_elsewhere({store()}).code, 0);
+    const std::string evidence = path("evidence.json");
+    ASSERT_EQ(archive({"export", "CMP-2026-3", "-o", evidence}).code, 0);
+    EXPECT_TRUE(tells(gumcert({"archive", "verify", evidence, "--share", GUMCERT_SOURCE_DIR}), "CMP-2026-3/A1"));
+    EXPECT_EQ(verified_elsewhere({evidence}).code, 0);
+
+    // Another kind of document, and another record of the original.
+    job["certificate"]["number"] = "CMP-2026-3/A1/A1";
+    job["certificate"]["amendment"]["number"] = "CMP-2026-3/A1";
+    EXPECT_TRUE(tells(brought_in("amend", made("third")), "was compared with another record"));
+}
+
+// A report whose budget rests on a standard that was wrong gets a draft, which can be evaluated and brought in as it is.
+TEST_F(ArchiveOfALaboratory, DraftsAmendmentsOfReportsOfComparisons) {
+    begin();
+    const fs::path lab = folder() / "lab";
+    fs::copy(fs::path(GUMCERT_SOURCE_DIR) / "examples" / "laboratory", lab, fs::copy_options::recursive);
+    const json job = {
+        {"schema", "gumcert/job/1"},
+        {"kind", "comparison"},
+        {"title", "Comparison of an end gauge"},
+        {"unit", "nm"},
+        {"assigned_value", {{"value", 50000800}, {"U", 60}, {"k", 2}}},
+        {"certificate",
+         {{"number", "CMP-1"},
+          {"laboratory", {{"name", "Example Institute"}}},
+          {"languages", {"en"}},
+          {"dates", {{"issued", "2026-11-21"}}}}},
+        {"participants", {{{"id", "A"}, {"budget", "end_gauge.json"}}, {{"id", "B"}, {"value", 50000780}, {"u", 40}}}}};
+    write_bytes(lab / "cmp.json", job.dump());
+    const auto made = [&](const fs::path& from, const std::string& name) {
+        Ended ended =
+            gumcert({"evaluate", from.string(), "-o", path(name + ".json"), "--share", GUMCERT_SOURCE_DIR, "-q"});
+        EXPECT_EQ(ended.code, 0) << ended.err;
+        ended = gumcert({"render", path(name + ".json"), "--format", "html", "-o", path(name + ".html"), "--share",
+                         GUMCERT_SOURCE_DIR, "-q"});
+        EXPECT_EQ(ended.code, 0) << ended.err;
+    };
+    made(lab / "cmp.json", "first");
+    ASSERT_EQ(archive({"add", path("first.json"), path("first.html")}, "R. Lin").code, 0);
+    lead_to_issue("CMP-1");
+    fs::copy(lab / "laboratory", folder() / "corrected", fs::copy_options::recursive);
+    const fs::path standard = folder() / "corrected" / "standards" / "STD-017.json";
+    std::string registered = bytes_of(standard);
+    registered.replace(registered.find("50.000623"), 9, "50.000673");
+    write_bytes(standard, registered);
+    const Ended found = archive({"affected", "--source", "STD-017", "--since", "2026-03-02", "--register",
+                                 path("corrected"), "--why", "The standard was wrong.", "-o", path("drafts")});
+    EXPECT_EQ(found.code, 1) << found.err;
+    EXPECT_TRUE(tells(found, "draft CMP-1_A1")) << found.out;
+    const fs::path draft = folder() / "drafts" / "CMP-1_A1";
+    EXPECT_EQ(bytes_of(draft / "original_record.json"), bytes_of(path("first.json")));
+    EXPECT_EQ(bytes_of(draft / "laboratory" / "standards" / "STD-017.json"), registered);
+
+    made(draft / "cmp.json", "second");
+    EXPECT_TRUE(has(bytes_of(path("second.html")), "Amendment to comparison report CMP-1."));
+    ASSERT_EQ(archive({"amend", path("second.json"), path("second.html")}, "R. Lin").code, 0);
+    lead_to_issue("CMP-1/A1");
+    EXPECT_EQ(shown({"show", "CMP-1"})["state"], "amended-by");
+    const json told = json::parse(bytes_of(draft / "changes.json"));
+    const json entered = shown({"show", "CMP-1/A1"})["entries"][0]["body"]["amends"]["changes"];
+    EXPECT_EQ(told["changes"].size(), entered.size()) << entered.dump(1);
+    EXPECT_EQ(archive({"verify"}).code, 0);
+    EXPECT_EQ(verified_elsewhere({store()}).code, 0);
 }
 
 // What reading leaves out of a digital certificate is no fault of a document that says what its record says.

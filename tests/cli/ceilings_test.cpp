@@ -1,7 +1,12 @@
 // Limits of memory and time, and the log of refusals.
+#include <signal.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 
+#include <array>
 #include <chrono>
+#include <cstdio>
+#include <thread>
 
 #include "tests/cli/job_files.h"
 #include "tests/cli/program.h"
@@ -12,7 +17,7 @@ namespace {
 class Ceilings : public ProgramTest {
 protected:
     /// A job that takes minutes.
-    [[nodiscard]] std::string endless_job() const {
+    [[nodiscard]] std::string endless_job(long long trials = 10'000'000'000) const {
         const fs::path job = folder() / "job.json";
         nlohmann::json document = {
             {"schema", "gumcert/job/1"},
@@ -22,9 +27,70 @@ protected:
             {"inputs",
              {{"a", {{"unit", "m"}, {"value", 1}, {"u", 0.1}}},
               {"b", {{"unit", "m"}, {"value", 1}, {"half_width", 0.1}, {"distribution", "uniform"}}}}},
-            {"monte_carlo", {{"trials", 10'000'000'000}}}};
+            {"monte_carlo", {{"trials", trials}}}};
         write_bytes(job, document.dump(1));
         return job.string();
+    }
+    [[nodiscard]] std::string sha256_of(const std::string& bytes) const {
+        write_bytes(folder() / "bytes", bytes);
+        std::FILE* const said = ::popen(("sha256sum '" + (folder() / "bytes").string() + "'").c_str(), "r");
+        std::array<char, 64> digits{};
+        EXPECT_EQ(std::fread(digits.data(), 1, digits.size(), said), digits.size());
+        ::pclose(said);
+        fs::remove(folder() / "bytes");
+        return {digits.data(), digits.size()};
+    }
+    /// A record that says of itself what a sound one says, with a job that takes minutes.
+    [[nodiscard]] std::string endless_record() const {
+        const std::string record = (folder() / "record.json").string();
+        const std::string job = endless_job(7919);
+        const std::string before = sha256_of(bytes_of(job));
+        const Ended made = gumcert({"evaluate", job, "-o", record, "--share", GUMCERT_SOURCE_DIR, "-q"});
+        EXPECT_EQ(made.code, 0) << made.err;
+        std::string text = bytes_of(record);
+        const auto replace = [&text](const std::string& old, const std::string& now) {
+            EXPECT_NE(text.find(old), std::string::npos) << old;
+            for (std::size_t at = text.find(old); at != std::string::npos; at = text.find(old, at + now.size())) {
+                text.replace(at, old.size(), now);
+            }
+        };
+        replace("7919", "10000000000");
+        replace(before, sha256_of(bytes_of(endless_job())));
+        const std::size_t digest = text.find("\n \"digest\": {");
+        const std::size_t end = text.find("},", digest) + 2;
+        const std::size_t value = text.find("\"value\": \"", digest) + 10;
+        std::string rest = text;
+        rest.erase(digest, end - digest);
+        text.replace(value, 64, sha256_of(rest));
+        write_bytes(record, text);
+        return record;
+    }
+    /// Whether a command gets a wall of memory that this process has not, before it ends or 60 s are over. It is killed then.
+    [[nodiscard]] bool gets_a_wall(std::vector<std::string> words) const {
+        rlimit own{};
+        EXPECT_EQ(::getrlimit(RLIMIT_DATA, &own), 0);
+        words.insert(words.begin(), GUMCERT_PROGRAM);
+        words.insert(words.end(), {"--share", GUMCERT_SOURCE_DIR, "-q"});
+        std::vector<char*> argv;
+        for (std::string& word : words) {
+            argv.push_back(word.data());
+        }
+        argv.push_back(nullptr);
+        pid_t child = 0;
+        EXPECT_EQ(posix_spawn(&child, GUMCERT_PROGRAM, nullptr, nullptr, argv.data(), environ), 0);
+        bool has_wall = false;
+        int status = 0;
+        for (int i = 0; i < 6000 && !has_wall; ++i) {
+            rlimit now{};
+            has_wall = ::prlimit(child, RLIMIT_DATA, nullptr, &now) == 0 && now.rlim_cur < own.rlim_cur;
+            if (!has_wall && waitpid(child, &status, WNOHANG) == child) {
+                return false;
+            }
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        }
+        kill(child, SIGKILL);
+        waitpid(child, &status, 0);
+        return has_wall;
     }
 };
 
@@ -80,6 +146,29 @@ TEST_F(Ceilings, ForeignFilesHaveWallsThatCanBeMoved) {
     const Ended usual = gumcert(audit);
     EXPECT_EQ(usual.code, 0) << usual.err;
     EXPECT_EQ(gumcert(narrow).code, 5);
+}
+
+/// The job in a record of others says how long its evaluation takes: every command that evaluates it has walls then.
+TEST_F(Ceilings, RecordsOfOthersAreEvaluatedWithinWalls) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    GTEST_SKIP() << "a sanitizer reserves terabytes: no wall of memory there";
+#endif
+    const std::string record = endless_record();
+    const std::string out = (folder() / "out").string();
+    const std::string page = (folder() / "out.html").string();
+    const std::vector<std::vector<std::string>> commands = {
+        {"render", record, "--format", "html", "-o", page}, {"audit", record, "-o", out}, {"rerun", record}};
+    for (const std::vector<std::string>& command : commands) {
+        EXPECT_TRUE(gets_a_wall(command)) << command.front();
+        std::vector<std::string> words = command;
+        words.insert(words.end(), {"--time-limit", "1", "--share", GUMCERT_SOURCE_DIR});
+        const Ended ended = gumcert(words);
+        EXPECT_EQ(ended.code, 5) << command.front() << ": " << ended.err;
+        EXPECT_TRUE(has(ended.err, "[GC-STORE-0024]")) << ended.err;
+        EXPECT_FALSE(fs::exists(out) || fs::exists(page)) << command.front();
+    }
+    EXPECT_FALSE(gets_a_wall({"evaluate", endless_job(7919), "-o", (folder() / "own.json").string()}))
+        << "who evaluates a job of his own waits for it";
 }
 
 /// Each of 900 inputs is a result with 900 rows: 450 MB, told before they are taken.

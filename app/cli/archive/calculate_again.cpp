@@ -247,7 +247,9 @@ ExitCode work_for_others(const ArchiveOptions& options, const CommonOptions& com
     }
     progress.clear();
     if (!common.quiet) {
-        print_to_stdout("{} done\n", text::count_of(done_tasks, "task"));
+        const std::size_t unknown = worker.not_evaluated();
+        print_to_stdout("{} done{}\n", text::count_of(done_tasks, "task"),
+                        unknown > 0 ? fmt::format(", {} of which could not be evaluated", unknown) : "");
     }
     return done;
 }

@@ -45,10 +45,6 @@ ExitCode add_draft(const ArchiveOptions& options, const CommonOptions& common, b
     progress.clear();
     archive::Request request = request_of(options);
     const certificate::CertificateData data = archive::stated_identity(checked.record);
-    if (is_amendment && !checked.record.certificate) {
-        refuse_usage(options.named.front(), "is the record of a comparison", "certificates are amended",
-                     "withdraw the report, and add the corrected one under a number of its own");
-    }
     if (data.amendment.has_value() != is_amendment) {
         refuse_usage(options.named.front(), is_amendment ? "amends no certificate" : "amends another certificate",
                      "an amendment comes in by gumcert archive amend, every other certificate by add",

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -53,6 +54,31 @@ TEST(ArchiveHead, IsRefusedWhereItHasAnotherForm) {
     other["signature"] = {{"algorithm", "RSA"}};
     EXPECT_EQ(code(other), "GC-ARCHIVE-0049");
     EXPECT_EQ(test::code_of([&] { (void)head_from_json("[", "head.json"); }), "GC-ARCHIVE-0049");
+}
+
+/// What a clock can say, and nothing else: of every month its last day, and not the one behind it.
+TEST(UtcTime, IsOneThatThereIs) {
+    const int days[] = {31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
+    for (const char* const year : {"0001", "1900", "2000", "2024", "2026", "9999"}) {
+        const bool is_leap = std::string_view(year) == "2000" || std::string_view(year) == "2024";
+        for (int month = 0; month <= 13; ++month) {
+            const int last = month < 1 || month > 12 ? 0 : days[month - 1] + (month == 2 && is_leap ? 1 : 0);
+            for (int day = 0; day <= 32; ++day) {
+                const auto two = [](int number) { return (number < 10 ? "0" : "") + std::to_string(number); };
+                const std::string text = std::string(year) + "-" + two(month) + "-" + two(day) + "T23:59:59Z";
+                EXPECT_EQ(is_utc_time(text), day >= 1 && day <= last) << text;
+            }
+        }
+    }
+    for (const char* const none :
+         {"2026-11-24T24:00:00Z", "2026-11-24T25:00:00Z", "2026-11-24T12:60:00Z", "2026-11-24T23:59:60Z",
+          "0000-01-01T00:00:00Z", "2026-11-24T12:00:00", "2026-11-24 12:00:00Z", "2026-11-24T12:00:00.5Z",
+          "2026-11-24T12:00:00+00:00", "+026-11-24T12:00:00Z", "", "2026-11-24T1 :00:00Z"}) {
+        EXPECT_FALSE(is_utc_time(none)) << none;
+        Head head = sample_head();
+        head.at = none;
+        EXPECT_EQ(test::code_of([&] { (void)head_from_json(to_json(head), "head.json"); }), "GC-ARCHIVE-0049") << none;
+    }
 }
 
 TEST(ArchiveHead, GrowsWithTheLog) {

@@ -244,8 +244,8 @@ TEST(EntriesAfterAWrongClock, HaveTheTimeOfTheEntryBefore) {
     const char* const order = "an entry after a clock that was ahead has the time of the entry before";
     log.at = "2027-01-10T12:00:00Z";
     EXPECT_EQ(take("EX-2027-01", 1, "EX-2027-##", json()), "") << "by the wrong clock";
-    for (const json& clock :
-         {json(1), json("2026-11-29"), json("2027-01-10T12:00:00Z"), json("2027-02-01T00:00:00Z")}) {
+    for (const json& clock : {json(1), json("2026-11-29"), json("2027-01-10T12:00:00Z"), json("2027-02-01T00:00:00Z"),
+                              json("2026-02-30T00:00:00Z"), json("2026-11-29T25:00:00Z")}) {
         EXPECT_EQ(take("EX-2026-01", 1, "EX-2026-##", clock), form) << clock;
     }
     EXPECT_EQ(take("EX-2027-02", 2, "EX-2027-##", "2026-11-29T20:00:00Z"),

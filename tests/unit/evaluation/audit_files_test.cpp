@@ -10,6 +10,9 @@
 #include <utility>
 #include <vector>
 
+#include "evaluation/evaluate_job.h"
+#include "reports/record/evaluation_record.h"
+
 namespace gumcert::evaluation {
 namespace {
 
@@ -90,6 +93,39 @@ TEST(AuditFiles, OfOtherPartsOfTheProgramAreNoJobs) {
     std::ofstream(all / "cut.json") << R"({"title": "x", )";
     std::ofstream(all / "cut_list.json") << R"([{"kind": "budget")";
     EXPECT_EQ(files_to_audit({all}).files.size(), 5U);
+    fs::remove_all(all);
+}
+
+/// How long the evaluation of a record takes is said by whoever made it; jobs and tables are looked at as they are.
+TEST(AuditFiles, EvaluateRecordsWithinWalls) {
+    const fs::path tree = GUMCERT_SOURCE_DIR;
+    const fs::path all = fs::path(testing::TempDir()) / "records_within_walls";
+    fs::remove_all(all);
+    fs::create_directories(all);
+    fs::copy_file(tree / "examples" / "gauge_block" / "job.json", all / "job.json");
+    const std::string record =
+        reports::to_canonical_json(evaluate_job(all / "job.json", CovarianceFile::none, 1, tree / "templates").record);
+    std::ofstream(all / "record.json") << record;
+    std::ofstream(all / "table.csv") << "name,value,u\nx,1,0.1\n";
+    const std::vector<FileToAudit> files = {
+        {.file = all / "job.json"}, {.file = all / "record.json"}, {.file = all / "table.csv"}};
+    std::vector<std::string> within;
+    std::vector<std::string> progress;
+    bool is_within = false;
+    const std::vector<AuditAttempt> attempts = audit_files(
+        files, 1, tree / "templates", [&](const std::string& text) { progress.push_back(is_within ? "+" : text); }, {},
+        {},
+        [&](const fs::path& file, const std::function<void()>& work) {
+            within.push_back(file.filename().string());
+            is_within = true;
+            work();
+            is_within = false;
+        });
+    EXPECT_EQ(within, std::vector<std::string>{"record.json"});
+    for (const AuditAttempt& attempt : attempts) {
+        EXPECT_TRUE(attempt.view);
+    }
+    EXPECT_THAT(progress, ::testing::Contains("+")) << "it is evaluated there";
     fs::remove_all(all);
 }
 

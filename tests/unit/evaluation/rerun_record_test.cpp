@@ -102,21 +102,28 @@ TEST(RerunRecord, WhatTheNewVersionSaysInAdditionIsNoChangeAndWhatItLeavesOutIsO
     EXPECT_EQ(left_out.changes[0].place, "/results/l/budget");
 }
 
-/// It is no fault of the record, as a job that cannot be evaluated is.
-TEST(RerunRecord, IsEndedByItsProgress) {
+/// It is no fault of the record, as a job that cannot be evaluated is; every record is counted, those that were refused, too.
+TEST(RerunRecord, IsCountedWhereItsProgressEndsIt) {
     const std::string record =
         reports::to_canonical_json(evaluate_job(k_rerun_tree / "examples" / "gauge_block" / "job.json",
                                                 CovarianceFile::none, 1, k_rerun_tree / "templates")
                                        .record);
-    try {
-        (void)rerun_record(record, "old.json", 1, k_rerun_tree / "templates", [](const std::string&) {
+    const auto ended_by = [&](const char* code) {
+        return rerun_record(record, "old.json", 1, k_rerun_tree / "templates", [code](const std::string&) {
             throw gum::StorageError(gum::Diagnostic{
-                .code = "GC-STORE-0024", .where = "--time-limit", .what = "used up", .rule = "", .action = ""});
+                .code = code, .where = "--time-limit", .what = "used up", .rule = "the rule", .action = "do it"});
         });
-        ADD_FAILURE() << "not ended";
-    } catch (const gum::StorageError& error) {
-        EXPECT_EQ(error.diagnostics().front().where, "--time-limit");
-    }
+    };
+    const RerunRecord ended = ended_by("GC-STORE-0024");
+    EXPECT_TRUE(ended.was_ended());
+    EXPECT_TRUE(ended.is_negative());
+    EXPECT_STREQ(ended.outcome(), "not_evaluated");
+    EXPECT_EQ(ended.not_evaluated->where, "--time-limit");
+    EXPECT_NE(rerun_text({&ended, 1}).find("\n1 record, evaluated"), std::string::npos) << rerun_text({&ended, 1});
+    EXPECT_NE(rerun_text({&ended, 1}).find("0 changed, 1 not evaluated\n"), std::string::npos);
+    EXPECT_NE(rerun_text({&ended, 1}, 2).find("\n3 records, evaluated"), std::string::npos);
+    EXPECT_NE(rerun_text({&ended, 1}, 2).find("0 changed, 3 not evaluated\n"), std::string::npos);
+    EXPECT_FALSE(ended_by("GC-STORE-0001").was_ended()) << "any other trouble is one of the job";
 }
 
 TEST(RerunRecord, SaysWhyItCannotBeEvaluated) {

@@ -55,8 +55,10 @@ reports::EvaluationRecord evaluate_comparison(const jobs::ComparisonJob& job,
     if (job.certificate) {
         const certificate::CertificateData& data = *job.certificate;
         comparison.languages = data.languages;
-        comparison.issuer = reports::ComparisonIssuer{
-            .laboratory = data.laboratory.name, .number = data.number, .issued = data.dates.issued};
+        comparison.issuer = reports::ComparisonIssuer{.laboratory = data.laboratory.name,
+                                                      .number = data.number,
+                                                      .issued = data.dates.issued,
+                                                      .amendment = data.amendment};
     }
     const std::vector<gum::Diagnostic> notes = notes_on(job, std::move(found));
     reports::EvaluationRecord record = reports::record_head(

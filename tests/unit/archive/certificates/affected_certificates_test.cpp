@@ -260,6 +260,8 @@ TEST_F(ArchiveOfStandards, AreCalculatedAgainAndRanked) {
     EXPECT_EQ(ended[0].certificate.number, "EX-2026-0042");
     EXPECT_EQ(ended[0].recalculated->rerun.not_evaluated->what, "used up");
     EXPECT_NE(ended[1].recalculated->rerun.not_evaluated->what, "used up");
+    EXPECT_TRUE(affected_text(ended).ends_with("\n2 certificates affected, 2 of which could not be calculated again\n"))
+        << affected_text(ended);
 
     std::string corrected = registered;
     corrected.replace(corrected.find("50.000623"), 9, "50.001623");  // 1 µm: the gauge is out of its limits now

@@ -110,11 +110,15 @@ TEST(ArchiveReplay, HasALineForEachRecordAndOneForAll) {
               "EX-1                      same       made by gumcert 0.0.9 (commit a)\n"
               "EX-2                      DIFFERENT  made by gumcert 0.0.9 (commit a)\n"
               "EX-3                      NOT DONE   made by gumcert 0.0.9 (commit a)\n"
-              "1 of 3 records give the same with gumcert 0.1.0 (commit b)\n");
+              "1 of 3 records give the same with gumcert 0.1.0 (commit b); 1 not evaluated\n");
+    EXPECT_NE(replay_text({{"EX-1", replay_with(0)}}, "b").find("1 of 1 records give the same with gumcert b\n"),
+              std::string::npos)
+        << "all of them were";
     const json said = replay_json(replays, "0.1.0 (commit b)");
     EXPECT_EQ(said["schema"], "gumcert/archive-replay/1");
     EXPECT_EQ(said["records"], 3);
     EXPECT_EQ(said["same"], 1);
+    EXPECT_EQ(said["not_evaluated"], 1);
     EXPECT_EQ(said["certificates"][0]["differences"], json::array());
     EXPECT_EQ(said["certificates"][1]["differences"][0]["what"], "\"10\"");
     EXPECT_EQ(said["certificates"][2]["evaluated"], false);

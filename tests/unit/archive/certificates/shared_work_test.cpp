@@ -108,6 +108,7 @@ TEST_F(SharedWorkOfAnArchive, GivesWhatOneMachineGives) {
     ArchiveWorker worker(archive_, table_, 2, k_shared_tree / "templates");
     table_.add(work.work, work.tasks);
     EXPECT_EQ(worker.do_some(*table_.next("1.0 (commit x)")), 3U) << "somebody else was there before";
+    EXPECT_EQ(worker.not_evaluated(), 1U) << "EX-3";
     worker.finish(work, [&] { ++waits_; }, {});
     EXPECT_EQ(waits_, 0);
     take_results(shared, table_, work);
@@ -127,7 +128,9 @@ TEST_F(SharedWorkOfAnArchive, ReplaysWithOthers) {
         records.emplace_back(one.number, one.record);
     }
     const WorkToShare work = work_of_replay(records, "1.0 (commit x)");
-    ArchiveWorker(archive_, table_, 1, k_shared_tree / "templates").finish(work, [&] { ++waits_; }, {});
+    ArchiveWorker worker(archive_, table_, 1, k_shared_tree / "templates");
+    worker.finish(work, [&] { ++waits_; }, {});
+    EXPECT_EQ(worker.not_evaluated(), 1U) << "EX-3";
     const std::vector<std::pair<std::string, Replay>> replays = replays_in(table_, work);
     ASSERT_EQ(replays.size(), 3U);
     for (const auto& [number, shared] : replays) {

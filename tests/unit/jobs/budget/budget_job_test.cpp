@@ -4,9 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <limits>
+#include <set>
 
 #include "jobs/input_codes.h"
+#include "jobs/laboratory/laboratory_use.h"
 #include "tests/support/budget_campaign.h"
 #include "tests/support/campaign.h"
 
@@ -581,6 +585,73 @@ TEST(BudgetJobTest, EqualReadingsWithoutAResolutionAreRefused) {
         EXPECT_EQ(refused[0].code, "GC-INPUT-0305");
         EXPECT_THAT(refused[0].action, testing::HasSubstr("state \"resolution\" beside them"));
     }
+}
+
+/// What the register says, line by line.
+std::string told_by(const std::optional<certificate::LaboratoryRegister>& facts) {
+    std::string text = facts ? "" : "nothing";
+    if (facts) {
+        for (const auto& one : facts->contradictions) {
+            text += one.where + " " + one.subject + " " + one.stated + " " + one.registered + "\n";
+        }
+        for (const auto& one : facts->overdue) {
+            text += one.standard + " " + one.day + " " + one.due + "\n";
+        }
+        for (const auto& one : facts->uses) {
+            text += one.standard + " " + one.input + " " + one.answer + " " + one.because + "\n";
+        }
+        for (const auto* const list : {&facts->not_registered, &facts->not_listed}) {
+            for (const std::string& one : *list) {
+                text += one + "\n";
+            }
+        }
+        for (const auto& one : facts->signatories) {
+            text += one.name + " " + one.from + " " + one.to + " " + std::to_string(one.methods.size()) + "\n";
+        }
+    }
+    return text;
+}
+
+/// The reader hands on what register_of_job() reads a second time, whatever the certificate states otherwise.
+TEST(BudgetJobOfALaboratory, SaysOfTheRegisterWhatAReadingAloneSays) {
+    namespace fs = std::filesystem;
+    const fs::path folder = fs::path(testing::TempDir()) / "job_of_a_laboratory";
+    fs::remove_all(folder);
+    fs::copy(fs::path(GUMCERT_SOURCE_DIR) / "examples" / "laboratory", folder, fs::copy_options::recursive);
+    const auto document_of = [&](const char* file) {
+        std::ifstream stream(folder / file);
+        return nlohmann::json::parse(stream, nullptr, true, true);
+    };
+    const nlohmann::json job = document_of("end_gauge.json");
+    const nlohmann::json certificate = document_of("end_gauge_certificate.json");
+    const std::vector<nlohmann::json> others = {
+        R"({})"_json,
+        R"({"standards": []})"_json,
+        R"({"standards": ["STD-017"]})"_json,
+        R"({"standards": [{"identification": "STD-017", "certificate": "another", "name": "gauge"}]})"_json,
+        R"({"dates": {"performed_from": "2031-01-02", "performed_to": "2031-01-03"}})"_json,
+        R"({"persons": {"authorised_by": {"name": "N. Obody"}}})"_json};
+    std::set<std::string> told;
+    for (const nlohmann::json& other : others) {
+        nlohmann::json stated = certificate;
+        stated.merge_patch(other);
+        std::ofstream(folder / "end_gauge_certificate.json") << stated.dump();
+        for (const bool is_used : {true, false}) {
+            nlohmann::json changed = job;
+            if (!is_used) {
+                changed["inputs"]["l_s"] = R"({"unit": "nm", "value": 50000623, "u": 25, "nu": 18})"_json;
+            }
+            std::ofstream(folder / "end_gauge.json") << changed.dump();
+            const auto alone = register_of_job(DiskFileSource::of_job(folder / "end_gauge.json"), "end_gauge.json");
+            try {
+                EXPECT_EQ(told_by(read_budget_job(folder / "end_gauge.json").registered), told_by(alone)) << other;
+                told.insert(told_by(alone));
+            } catch (const gum::InputError& refused) {
+                EXPECT_FALSE(refused.diagnostics().empty()) << "nothing is handed on";
+            }
+        }
+    }
+    EXPECT_GE(told.size(), 4U) << "they differ";
 }
 
 }  // namespace
