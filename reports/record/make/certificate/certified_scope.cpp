@@ -406,19 +406,32 @@ bool is_end(double at, double end) {
     return std::abs(at - end) <= k_range_noise * std::max(std::abs(at), std::abs(end));
 }
 
-/// One line of the scope that covers a value, and where the value lies in its ranges.
+/// Where a line of the scope begins and ends: its ranges, and the first and the last point of its capability.
+std::vector<ScopeEntry::Range> ends_of(const ScopeEntry& entry) {
+    std::vector<ScopeEntry::Range> ends = entry.ranges;
+    const certificate::Capability& c = entry.capability;
+    if ((c.form == "range" || c.form == "table") && !c.arguments.empty() && !c.points.empty()) {
+        ends.push_back({.argument = c.arguments[0], .low = c.points.front().at, .high = c.points.back().at});
+    } else if (c.form == "matrix" && c.arguments.size() == 2 && !c.rows.empty() && !c.columns.empty()) {
+        ends.push_back({.argument = c.arguments[0], .low = c.rows.front(), .high = c.rows.back()});
+        ends.push_back({.argument = c.arguments[1], .low = c.columns.front(), .high = c.columns.back()});
+    }
+    return ends;
+}
+
+/// One line of the scope that covers a value, and where the value lies in it.
 struct Covering {
-    const ScopeEntry* entry = nullptr;
     ScopeAnswer answer;
-    std::vector<std::optional<double>> at;  ///< in the unit of each range; none: of several rows
+    std::vector<ScopeEntry::Range> ends = {};
+    std::vector<std::optional<double>> at = {};  ///< in the unit of each of `ends`; none: of several rows
 };
 
 /// Where one line ends and another one begins at the value: the range of the one that begins; nullptr where they do not.
 const ScopeEntry::Range* range_beyond(const Covering& below, const Covering& above) {
-    for (std::size_t i = 0; i < below.entry->ranges.size(); ++i) {
-        const ScopeEntry::Range& ends = below.entry->ranges[i];
-        for (std::size_t j = 0; j < above.entry->ranges.size(); ++j) {
-            const ScopeEntry::Range& begins = above.entry->ranges[j];
+    for (std::size_t i = 0; i < below.ends.size(); ++i) {
+        const ScopeEntry::Range& ends = below.ends[i];
+        for (std::size_t j = 0; j < above.ends.size(); ++j) {
+            const ScopeEntry::Range& begins = above.ends[j];
             // Below 0 and at it a scope is read in more ways than one.
             if (ends.argument.of == begins.argument.of && below.at[i] && above.at[j] && ends.low >= 0.0 &&
                 ends.low < ends.high && begins.low > 0.0 && begins.low < begins.high &&
@@ -463,8 +476,8 @@ ScopeAnswer scope_of(const certificate::CertificateData& data, const ScopePlace&
             }
             continue;
         }
-        Covering& covering = inside.emplace_back(Covering{.entry = &entry, .answer = std::move(answer), .at = {}});
-        for (const ScopeEntry::Range& range : entry.ranges) {
+        Covering& covering = inside.emplace_back(Covering{.answer = std::move(answer), .ends = ends_of(entry)});
+        for (const ScopeEntry::Range& range : covering.ends) {
             covering.at.push_back(argument_of(data, entry, place, inputs, range.argument).value);
         }
     }

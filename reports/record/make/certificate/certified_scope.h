@@ -36,7 +36,7 @@ struct ScopeAnswer {
 /// Looks a value up: name, method, place, ranges, capability. Where several lines of the scope cover it, the one with
 /// the largest capability holds, so that U is below none of them. Where one line ends and the next one begins at the value,
 /// both above 0 (1 V to 10 V, 10 V to 1000 V), it belongs to the line that ends there: scopes are read as if the next one
-/// began above it. A point that states a range beyond the value (`range`) belongs to the line that begins there.
+/// began above it. The points of a capability are such a range as well. A point that states a range beyond the value (`range`) belongs to the line that begins there.
 ///
 /// A capability in a ratio (%, ppm) is one of the quantity itself: of the first argument of capability or ranges that is of
 /// the kind of the result, else of the place where the result was measured. Where what was measured is larger than the

@@ -427,6 +427,50 @@ TEST(Certify, TakesTheRangeOfTheScopeThatThePointIsIn) {
     EXPECT_THAT(found, HasSubstr("m:low"));
 }
 
+/// The points of a capability end and begin as ranges do.
+TEST(Certify, TakesThePointsThatEndAtTheValue) {
+    CertificateData data = data_with(test::capability_of_one_value(1.0, "m"));
+    const auto of = [](const std::string& id, const std::string& form, double low, double high, double U) {
+        certificate::ScopeEntry entry;
+        entry.id = id;
+        entry.results = {"l"};
+        const certificate::CapabilityArgument length{.name = "L", .unit = "m"};
+        if (form == "matrix") {
+            entry.capability = Capability{.form = form,
+                                          .unit = "m",
+                                          .arguments = {{.name = "T", .unit = "m", .of = "T"}, length},
+                                          .rows = {0.0, 5.0},
+                                          .columns = {low, high},
+                                          .matrix = {{U, U}, {U, U}},
+                                          .lookup = "linear"};
+        } else {
+            entry.capability = Capability{.form = form,
+                                          .unit = "m",
+                                          .arguments = {length},
+                                          .points = {{.at = low, .U = U}, {.at = high, .U = U}},
+                                          .lookup = "linear"};
+        }
+        return entry;
+    };
+    data.parameters = {{.name = "T", .unit = "m", .value = 2.0}};
+    const auto entry = [&](double value, std::vector<certificate::ScopeEntry> scope) {
+        data.accreditation->scope = std::move(scope);
+        return certified(one_result(value, 9.0, "m"), data).scope_entry;
+    };
+    for (const char* form : {"range", "table", "matrix"}) {
+        for (const char* other : {"range", "table", "matrix", "ranges"}) {
+            SCOPED_TRACE(std::string(form) + " and " + other);
+            const auto low = of("low", form, 1.0, 100.0, 1.0);
+            const auto high = other == std::string("ranges") ? entry_of("high", 100.0, 1000.0, 3.0)
+                                                             : of("high", other, 100.0, 1000.0, 3.0);
+            EXPECT_EQ(entry(100.0, {low, high}), "low");
+            EXPECT_EQ(entry(100.0, {high, low}), "low");
+            EXPECT_EQ(entry(101.0, {low, high}), "high");
+            EXPECT_EQ(entry(100.0, {of("low", form, 1.0, 101.0, 1.0), high}), "high") << "both cover it";
+        }
+    }
+}
+
 /// A result that is small beside an input of its kind may be an error of it, and its capability is that of the input then.
 /// Whatever the scope is worded by, U is not stated below that in silence.
 TEST(Certify, SaysThatACapabilityMayHaveToBeTakenElsewhere) {
