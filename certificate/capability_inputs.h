@@ -22,6 +22,9 @@ struct InputValues {
 /// What the evaluation knows beside its record.
 struct CapabilityInputs {
     std::map<std::string, InputValues> values;  ///< by the name of the input
+    /// Of each result, by Result::name: sensitivity coefficients of the inputs that its model rests on, by their names, in
+    /// coherent units. Inputs that only a point states, such as a nominal value, have none.
+    std::map<std::string, std::map<std::string, double>> sensitivities = {};
     /// P(Y ≤ x) of results whose k comes from a convolution, by Result::name; x in the unit of the result.
     std::map<std::string, std::function<double(double)>> distributions;
     /// P(Y < x) of the same results, where it differs: where single values have a probability of their own.

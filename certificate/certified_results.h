@@ -47,9 +47,11 @@ struct CertifiedValue {
     std::string coverage = "student_t";                 ///< as Result::coverage
     /// printed; U is never below the capability. Low and high: of the interval
     std::string printed_value, printed_U, printed_k, printed_nu_eff, printed_low, printed_high;
-    std::string printed_u;             ///< beside an interval; "" where the distribution has no variance
-    std::string scope_entry;           ///< id of the scope entry that covers it; "" = outside of the accreditation
-    std::string outside_because;       ///< English, for the findings; "" where it is inside
+    std::string printed_u;        ///< beside an interval; "" where the distribution has no variance
+    std::string scope_entry;      ///< id of the scope entry that covers it; "" = outside of the accreditation
+    std::string outside_because;  ///< English, for the findings; "" where it is inside
+    /// How far outside, to tell the worst of many: by which share of its farther end a range was left. In no record.
+    double outside_by = 0.0;
     std::optional<double> capability;  ///< U of the scope entry here, in the unit of the column
     std::string printed_capability;
     bool raised = false;  ///< printed_U is the capability, because U was smaller

@@ -165,7 +165,7 @@ std::string whose_numbers(const std::vector<const FoundInRow*>& found, const Fou
 
 }  // namespace
 
-void FindingList::add_by_cause(const std::vector<FoundInRow>& of_values) {
+void FindingList::add_by_cause(const std::vector<FoundInRow>& of_values, const CountedAs& counted) {
     struct Cause {
         std::string words;
         std::vector<const FoundInRow*> found;
@@ -184,7 +184,12 @@ void FindingList::add_by_cause(const std::vector<FoundInRow>& of_values) {
             **std::ranges::max_element(cause.found, {}, &FoundInRow::badness);  // the first of equals
         Finding finding = worst.finding;
         finding.where = place_of(cause.found);
-        if (std::ranges::any_of(cause.found, [&](const auto* one) { return one->finding.what != finding.what; })) {
+        if (!counted.one.empty()) {
+            const std::size_t count = cause.found.size();
+            finding.what = std::to_string(count) + (count == 1 ? counted.one : counted.many) + finding.what;
+        }
+        if (std::ranges::any_of(cause.found,
+                                [&](const auto* one) { return one->finding.what != worst.finding.what; })) {
             finding.what += whose_numbers(cause.found, worst);
         }
         findings_.push_back(std::move(finding));

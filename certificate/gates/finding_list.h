@@ -18,6 +18,11 @@ struct FoundInRow {
     double badness = 0.0;  ///< among findings of one cause; the larger, the worse
 };
 
+/// Words behind the number of values that have one thing in common.
+struct CountedAs {
+    std::string one = {}, many = {};
+};
+
 /// Collects the findings of a gate.
 class FindingList {
 public:
@@ -45,7 +50,8 @@ public:
 
     /// What was found of values, one by one: one finding a cause, which lists its results and points. Findings have one
     /// cause where they say the same but for their numbers; those of the worst are told, and how many there are.
-    void add_by_cause(const std::vector<FoundInRow>& of_values);
+    /// \param counted  what stands between the number of values and what is wrong with them; empty: no number
+    void add_by_cause(const std::vector<FoundInRow>& of_values, const CountedAs& counted = {});
 
     /// Of findings that say the same of many points, the gravest, and the first of equals. None where there are none.
     /// \return whether there was one

@@ -163,40 +163,52 @@ void capabilities(const CertifiedTable& table, const CertifiedColumn& column, st
     }
 }
 
-void mixed(FindingList& found, const std::string& result, const Tally& tally, const Profile& profile) {
-    const std::string what = std::to_string(tally.outside) + (tally.outside == 1 ? " value is" : " values are") +
-                             " outside of the accreditation: " + tally.because;
+/// What is wrong with a value that is outside of the accreditation, its number of alike values not said.
+/// \param inside  whether the same column has accredited values
+Finding mixed(const CertifiedValue& value, bool inside, const Profile& profile) {
+    Finding finding{.id = "X06",
+                    .clause = k_p8,
+                    .severity = FindingSeverity::information,
+                    .where = {},
+                    .what = value.outside_because,
+                    .action = "They stand in columns of their own and are marked as not accredited."};
     if (profile.mixed_results == "mark") {
-        found.add(FindingSeverity::information, "X06", k_p8, result, what,
-                  "The values are marked as not accredited; extend the scope where that is wrong.");
-    } else if (profile.mixed_results == "refuse" || tally.inside > 0) {
-        found.critical("X06", k_p8, result,
-                       what + ", and the profile " + profile.id +
-                           (profile.mixed_results == "refuse" ? " does not allow them on a certificate with the symbol"
-                                                              : " wants them apart from accredited values"),
-                       "State them on a certificate of their own without the accreditation.");
-    } else {
-        found.add(FindingSeverity::information, "X06", k_p8, result, what,
-                  "They stand in columns of their own and are marked as not accredited.");
+        finding.action = "The values are marked as not accredited; extend the scope where that is wrong.";
+    } else if (profile.mixed_results == "refuse" || inside) {
+        finding.severity = FindingSeverity::critical;
+        finding.what += ", and the profile " + profile.id +
+                        (profile.mixed_results == "refuse" ? " does not allow them on a certificate with the symbol"
+                                                           : " wants them apart from accredited values");
+        finding.action = "State them on a certificate of their own without the accreditation.";
     }
+    return finding;
 }
 
 void scope(FindingList& found, const Certificate& certificate) {
     Tally all;
-    std::vector<FoundInRow> below;
+    std::vector<FoundInRow> below, outside;
     for (const CertifiedTable& table : certificate.tables) {
         for (const CertifiedColumn& column : table.columns) {
             Tally tally;
             for (const CertifiedValue& value : column.values) {
                 tally.count(value);
             }
-            if (tally.outside > 0) {
-                mixed(found, column.result, tally, certificate.profile);
+            for (std::size_t row = 0; row < column.values.size(); ++row) {
+                const CertifiedValue& value = column.values[row];
+                if (is_claim(value) && value.scope_entry.empty()) {
+                    outside.push_back({.table = &table,
+                                       .column = &column,
+                                       .row = row,
+                                       .finding = mixed(value, tally.inside > 0, certificate.profile),
+                                       .badness = value.outside_by});
+                }
             }
             capabilities(table, column, below);
             all.add(tally);
         }
     }
+    found.add_by_cause(outside, {.one = " value is outside of the accreditation: ",
+                                 .many = " values are outside of the accreditation: "});
     found.add_by_cause(below);
     // The symbol may stand only where at least one result is accredited (X02). U at the capability throughout says that
     // the item under calibration adds nothing, which is seldom true (X03).

@@ -104,13 +104,22 @@ void verdict(FindingList& found, const CertifiedValue& value) {
     }
 }
 
+/// U beside what it is to decide on, the tolerance: values of one cause may have other units. Beside the one limit that
+/// there is, else beside the value.
+double uncertainty_ratio(const CertifiedValue& value) {
+    const Verdict& v = *value.verdict;
+    const double beside =
+        std::abs(v.lower && v.upper ? *v.upper - *v.lower : v.upper.value_or(v.lower.value_or(value.value)));
+    return beside > 0.0 ? value.U.value_or(0.0) / beside : 0.0;
+}
+
 /// How bad a finding is among those of its cause at other values.
 double badness_of(const Finding& finding, const CertifiedValue& value) {
     if (finding.id == "R01") {
         return significant_digits(value.printed_U);
     }
     if (finding.id == "D05") {
-        return value.U.value_or(0.0);
+        return uncertainty_ratio(value);
     }
     if (finding.id != "D08") {
         return 0.0;

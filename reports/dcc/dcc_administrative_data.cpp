@@ -184,6 +184,22 @@ Text facts_in_lines(const Wording& words, const std::vector<std::pair<const char
     return lines;
 }
 
+/// What the customer stated of an item, each key once: sections of one item may say it each for itself.
+std::vector<std::string> stated_by_customer(const CertificateData& data, const certificate::Item& item) {
+    std::vector<std::string> keys = item.stated_by_customer;
+    for (const certificate::SectionData& section : data.sections) {
+        if (!section.item || !certificate::is_same_item(*section.item, item)) {
+            continue;
+        }
+        for (const std::string& key : section.item->stated_by_customer) {
+            if (std::find(keys.begin(), keys.end(), key) == keys.end()) {
+                keys.push_back(key);
+            }
+        }
+    }
+    return keys;
+}
+
 /// \param id  "" for one that no result is of
 void item(DccWriter& w, const certificate::Item& i, const std::string& id) {
     const Wording& words = w.words();
@@ -218,23 +234,23 @@ void item(DccWriter& w, const certificate::Item& i, const std::string& id) {
     }
     w.optional_string("dcc:model", i.type);
     w.xml.open("dcc:identifications");
-    const auto stated_by_customer = [&](const char* key) {
-        return std::find(i.stated_by_customer.begin(), i.stated_by_customer.end(), key) != i.stated_by_customer.end();
-    };
+    const std::vector<std::string> of_customer = stated_by_customer(w.data(), i);
+    const bool has_number_of_customer =
+        std::find(of_customer.begin(), of_customer.end(), "identification") != of_customer.end();
     const bool has_serial = !without_outer_blanks(i.serial_number).empty();
     const bool has_own = !without_outer_blanks(i.identification).empty();
     if (has_serial) {
         identification(w, "manufacturer", i.serial_number, words("dcc", "serial_number"), "serial_number");
     }
     if (has_own) {
-        identification(w, stated_by_customer("identification") ? "customer" : "calibrationLaboratory", i.identification,
+        identification(w, has_number_of_customer ? "customer" : "calibrationLaboratory", i.identification,
                        words("dcc", "identification"), "identification");
     }
     if (!has_serial && !has_own) {
         identification(w, "other", w.not_stated().first(), {}, "identification");
     }
     w.xml.close();
-    pieces_of_set(w, id, stated_by_customer("identification"));
+    pieces_of_set(w, id, has_number_of_customer);
     w.xml.close();
 }
 
@@ -472,17 +488,41 @@ void place(DccWriter& w) {
     w.xml.close();
 }
 
-void texts_of_laboratory(DccWriter& w) {
+/// "identification, owner": of several items that do not have it in common, behind what each is called.
+void stated_by_customer(DccWriter& w) {
     const CertificateData& d = w.data();
     const Wording& words = w.words();
-    if (!d.item.stated_by_customer.empty()) {
+    std::vector<const certificate::Item*> items = certificate::items_of(d);
+    if (items.empty()) {
+        items.push_back(&d.item);
+    }
+    const std::vector<std::string> first = stated_by_customer(d, *items.front());
+    const bool is_common =
+        std::ranges::all_of(items, [&](const auto* one) { return stated_by_customer(d, *one) == first; });
+    if (is_common) {
+        items.resize(1);
+    }
+    for (const certificate::Item* one : items) {
         Text names;
-        for (const std::string& key : d.item.stated_by_customer) {
+        for (const std::string& key : stated_by_customer(d, *one)) {
             names += (names.empty() ? Text() : Text(", ")) +
                      (words.has("certificate", key) ? words("certificate", key) : Text(key));
         }
+        if (names.empty()) {
+            continue;
+        }
+        if (!is_common) {
+            const std::string& number = one->serial_number.empty() ? one->identification : one->serial_number;
+            names = words.localised(one->description) + (number.empty() ? "" : " (" + number + ")") + ": " + names;
+        }
         w.statement("stated_by_customer", words.filled("dcc", "stated_by_customer", {{"names", names}}));
     }
+}
+
+void texts_of_laboratory(DccWriter& w) {
+    const CertificateData& d = w.data();
+    const Wording& words = w.words();
+    stated_by_customer(w);
     if (d.adjustment) {
         w.statement("adjustment", adjustment_sentence(d, *d.adjustment, words));
     }

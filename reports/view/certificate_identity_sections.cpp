@@ -17,6 +17,8 @@
 #include <array>
 #include <charconv>
 #include <cstddef>
+#include <map>
+#include <set>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -325,6 +327,58 @@ Text superseded_mark(const EvaluationRecord& record, const Wording& words) {
     return words.filled("document", "superseded", {{"number", record.certificate->superseded_by}});
 }
 
+/// Values that one specification decides before, or after, an adjustment.
+struct DecidedValues {
+    std::vector<const certificate::Verdict*> verdicts;
+    std::set<const certificate::CertifiedValue*> values;
+};
+
+/// By the stage of their columns in the order "", as found, as left.
+std::map<std::size_t, DecidedValues> decided_by_stage(const Certificate& certificate,
+                                                      const certificate::AgreedSpecification& s) {
+    std::map<std::size_t, DecidedValues> all;
+    for (const certificate::CertifiedTable& table : certificate.tables) {
+        for (const certificate::CertifiedColumn& column : table.columns) {
+            std::size_t stage = 0;
+            for (const certificate::ShownColumn& shown :
+                 table.layout ? table.layout->shown : std::vector<certificate::ShownColumn>()) {
+                if (shown.show == "value" && shown.of == column.result && !shown.stage.empty()) {
+                    stage = shown.stage == certificate::k_quantity_stages.front() ? 1 : 2;
+                }
+            }
+            for (const certificate::CertifiedValue& value : column.values) {
+                if (value.verdict && value.verdict->specification == s.id) {
+                    all[stage].verdicts.push_back(&*value.verdict);
+                    all[stage].values.insert(&value);
+                }
+            }
+        }
+    }
+    return all;
+}
+
+/// One line a specification; where results before and after an adjustment are decided, one for each: that an item failed
+/// before says nothing of how it leaves the laboratory.
+void summarise_verdicts(Facts& rows, const certificate::AgreedSpecification& s, const Wording& words,
+                        const Certificate& certificate) {
+    const std::map<std::size_t, DecidedValues> by_stage = decided_by_stage(certificate, s);
+    for (const auto& [stage, decided] : by_stage) {
+        const std::set<const certificate::CertifiedValue*>& values = decided.values;
+        const auto is_decided = [&values](const certificate::CertifiedValue& v) { return values.contains(&v); };
+        Text names = summarised_names(names_of_values(certificate, is_decided, words), words);
+        if (by_stage.size() > 1 && stage > 0) {
+            names = words("point_table", std::string(certificate::k_quantity_stages.at(stage - 1))) +
+                    words("document", "separator") + names;
+        }
+        rows.emplace_back(words("certificate", "conformity"),
+                          words.filled("statement", "conformity_summary",
+                                       {{"specification", document_of(s)},
+                                        {"results", names},
+                                        {"verdicts", verdict_counts(decided.verdicts, words)},
+                                        {"rule", rule_with_alternative(s.rule, words)}}));
+    }
+}
+
 void summary_section(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record) {
     const Certificate& certificate = *record.certificate;
     builder.section("summary");
@@ -333,28 +387,7 @@ void summary_section(CertificateBuilder& builder, const Wording& words, const Ev
         rows.emplace_back(words("certificate", "conformity"), words("statement", "no_conformity"));
     }
     for (const certificate::AgreedSpecification& s : certificate.data.specifications) {
-        std::vector<const certificate::Verdict*> verdicts;
-        for (const certificate::CertifiedTable& table : certificate.tables) {
-            for (const certificate::CertifiedColumn& column : table.columns) {
-                for (const certificate::CertifiedValue& value : column.values) {
-                    if (value.verdict && value.verdict->specification == s.id) {
-                        verdicts.push_back(&*value.verdict);
-                    }
-                }
-            }
-        }
-        const auto is_decided = [&](const certificate::CertifiedValue& v) {
-            return v.verdict && v.verdict->specification == s.id;
-        };
-        if (!verdicts.empty()) {
-            const std::vector<Text> names = names_of_values(certificate, is_decided, words);
-            rows.emplace_back(words("certificate", "conformity"),
-                              words.filled("statement", "conformity_summary",
-                                           {{"specification", document_of(s)},
-                                            {"results", summarised_names(names, words)},
-                                            {"verdicts", verdict_counts(verdicts, words)},
-                                            {"rule", rule_with_alternative(s.rule, words)}}));
-        }
+        summarise_verdicts(rows, s, words, certificate);
     }
     const std::vector<Text> without = names_of_values(certificate, is_without_verdict, words);
     if (!certificate.data.specifications.empty() && !without.empty()) {

@@ -43,6 +43,25 @@ certificate::InputValues values_of(const jobs::BudgetJob& job, const gum::Budget
     return out;
 }
 
+/// What of an output comes from which input. One that a point states and the output does not rest on may be its nominal
+/// value: it has no coefficient.
+std::map<std::string, double> sensitivities_of(const jobs::BudgetJob& job, const gum::BudgetPointResult& point,
+                                               Eigen::Index output) {
+    std::map<std::string, double> all;
+    const std::vector<gum::BudgetQuantity>& quantities = point.model->quantities();
+    for (std::size_t q = 0; q < quantities.size(); ++q) {
+        const std::size_t input = quantities[q].symbol;
+        if (input >= job.inputs.size() || !point.model->uses(input)) {
+            continue;  // a parameter of a fit
+        }
+        const double c = point.propagation.jacobian(output, static_cast<Eigen::Index>(q));
+        if (c != 0.0 || !is_stated_at(job, point.point, input)) {
+            all[job.inputs[input].name] = c;
+        }
+    }
+    return all;
+}
+
 /// A column of numbers, where every point of a section has one, or none.
 std::optional<certificate::InputValues> values_of(const jobs::BudgetJob& job, const certificate::PointColumn& column) {
     if (column.unit.empty()) {
@@ -99,7 +118,9 @@ certificate::CapabilityInputs capability_inputs(const jobs::BudgetJob& job, cons
             inputs.values.emplace(column.name, std::move(*values));  // those of inputs are there already
         }
     }
-    if (!job.certificate || job.certificate->specifications.empty()) {
+    const bool is_decided = job.certificate && !job.certificate->specifications.empty();
+    const bool has_scope = job.certificate && job.certificate->accreditation;
+    if (!is_decided && !has_scope) {
         return inputs;
     }
     const std::vector<std::string> names = gum::budget_result_names(job, result);
@@ -109,6 +130,12 @@ certificate::CapabilityInputs capability_inputs(const jobs::BudgetJob& job, cons
             const std::string& name = *next++;
             const gum::Unit& unit = jobs::result_unit(job, point, i);
             const auto output = static_cast<Eigen::Index>(i);
+            if (has_scope) {
+                inputs.sensitivities.emplace(name, sensitivities_of(job, point, output));
+            }
+            if (!is_decided) {
+                continue;
+            }
             if (point.outputs[i].by_monte_carlo && point.monte_carlo) {
                 inputs.trials.emplace(name, gum::TrialsOfOutput{.model = point.model,
                                                                 .output = output,

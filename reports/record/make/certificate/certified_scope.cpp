@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "certificate/capability.h"
-#include "certificate/gates/held_against.h"
 #include "certificate/result_names.h"
 #include "gum/coverage.h"
 #include "gum/quantity/diagnostic.h"
@@ -61,13 +60,17 @@ bool has_negative(const ScopeEntry& entry, const std::string& argument) {
     return c.arguments.size() > 1 && c.arguments[1].name == argument && !c.columns.empty() && c.columns.front() < 0.0;
 }
 
+/// What was measured where a result stands, of the kind of a unit.
+certificate::HeldAgainst measured_of(const ScopePlace& place, const Unit& unit) {
+    return place.assumed ? *place.assumed : certificate::measured_at(place.table, place.column, place.row, unit);
+}
+
 /// Value of an argument of a scope, in the unit that the scope states for it.
 Found argument_of(const certificate::CertificateData& data, const ScopeEntry& entry, const ScopePlace& place,
                   const certificate::CapabilityInputs& inputs, const CapabilityArgument& argument) {
     const std::string what = "the argument \"" + argument.name + "\"";
     if (argument.of == "value") {
-        const certificate::Measured measured =
-            certificate::measured_at(place.table, place.column, place.row, Unit::parse(argument.unit));
+        const certificate::HeldAgainst measured = measured_of(place, Unit::parse(argument.unit));
         Found found = converted(measured.value, measured.unit, argument.unit, what);
         // A Celsius temperature has no magnitude: −30 °C is not the 30 °C of a scope.
         const bool signed_value = Unit::parse(argument.unit).is_celsius_temperature();
@@ -107,19 +110,27 @@ std::string with_unit(double value, const std::string& unit) {
     return text::shortest_plain(value) + (shown.empty() ? "" : " " + shown);
 }
 
-std::string out_of_range(const ScopeEntry& entry, const ScopeEntry::Range& range, double at) {
-    const double noise = k_range_noise * std::max(std::abs(range.low), std::abs(range.high));
+/// Why a value is not in the scope, and how far.
+struct Outside {
+    std::string why;  ///< "": it is
+    double by = 0.0;  ///< as ScopeAnswer::outside_by
+};
+
+Outside out_of_range(const ScopeEntry& entry, const ScopeEntry::Range& range, double at) {
+    const double farther = std::max(std::abs(range.low), std::abs(range.high));
+    const double noise = k_range_noise * farther;
     if (at >= range.low - noise && at <= range.high + noise) {
         return {};
     }
-    return range.argument.name + " = " + with_unit(at, range.argument.unit) + " is not in " +
-           with_unit(range.low, range.argument.unit) + " to " + with_unit(range.high, range.argument.unit) +
-           " of the scope entry \"" + entry.id + "\"";
+    const std::string why = range.argument.name + " = " + with_unit(at, range.argument.unit) + " is not in " +
+                            with_unit(range.low, range.argument.unit) + " to " +
+                            with_unit(range.high, range.argument.unit) + " of the scope entry \"" + entry.id + "\"";
+    return {why, farther > 0.0 ? std::max(at - range.high, range.low - at) / farther : 0.0};
 }
 
 /// A single value that was found from all rows of the other tables (the set-up of a rotary table from all angles): each
 /// of them has to be in range.
-std::string all_rows_out_of_range(const ScopeEntry& entry, const ScopeEntry::Range& range, const ScopePlace& place) {
+Outside all_rows_out_of_range(const ScopeEntry& entry, const ScopeEntry::Range& range, const ScopePlace& place) {
     bool any = false;
     for (const certificate::CertifiedTable& table : place.tables) {
         for (const std::optional<double>& at : table.argument ? table.argument->values : k_no_values) {
@@ -128,28 +139,29 @@ std::string all_rows_out_of_range(const ScopeEntry& entry, const ScopeEntry::Ran
             }
             any = true;
             const Found found = converted(*at, table.argument->unit, range.argument.unit, range.argument.name);
-            std::string why = found.value ? out_of_range(entry, range, *found.value) : found.why;
-            if (!why.empty()) {
-                return why;
+            Outside outside = found.value ? out_of_range(entry, range, *found.value) : Outside{found.why};
+            if (!outside.why.empty()) {
+                return outside;
             }
         }
     }
-    return any ? "" : "the argument \"" + range.argument.name + "\" is the argument of a table, and there is none";
+    return any ? Outside()
+               : Outside{"the argument \"" + range.argument.name + "\" is the argument of a table, and there is none"};
 }
 
-/// "" where the value lies in every range.
-std::string out_of_ranges(const certificate::CertificateData& data, const ScopeEntry& entry, const ScopePlace& place,
-                          const certificate::CapabilityInputs& inputs) {
+/// Of the first range in which a value does not lie.
+Outside out_of_ranges(const certificate::CertificateData& data, const ScopeEntry& entry, const ScopePlace& place,
+                      const certificate::CapabilityInputs& inputs) {
     for (const ScopeEntry::Range& range : entry.ranges) {
-        std::string why;
+        Outside outside;
         if (range.argument.of == "argument" && !place.table.argument) {
-            why = all_rows_out_of_range(entry, range, place);
+            outside = all_rows_out_of_range(entry, range, place);
         } else {
             const Found at = argument_of(data, entry, place, inputs, range.argument);
-            why = at.value ? out_of_range(entry, range, *at.value) : at.why;
+            outside = at.value ? out_of_range(entry, range, *at.value) : Outside{at.why};
         }
-        if (!why.empty()) {
-            return why;
+        if (!outside.why.empty()) {
+            return outside;
         }
     }
     return {};
@@ -163,16 +175,22 @@ bool is_quantity_by_role(const ScopePlace& place) {
            });
 }
 
-/// Why a capability is no share of the result itself: small beside an input of its kind it may be an error of it, unless
-/// its role says otherwise, and a share of an error would be far less than the scope states. "": it is one.
-std::string no_share_of_result(const ScopeEntry& entry, const ScopePlace& place,
-                               const certificate::CapabilityInputs& inputs) {
-    constexpr double k_small = 0.1;
+/// An input beside which a result is small.
+struct InputBeside {
+    certificate::HeldAgainst input;
+    double size = 0.0;       ///< in the unit of the result
+    bool is_stated = false;  ///< the result does not rest on it: it may be its nominal value
+};
+
+/// What a result may be an error of: the largest input of its kind beside which it is small. Of several that are equal but
+/// for such errors the one that is stated only, else the first by its name: at all points the same.
+/// \param small  the result is less than this share of what the input makes of it
+std::optional<certificate::HeldAgainst> input_beside(const ScopePlace& place,
+                                                     const certificate::CapabilityInputs& inputs, double small) {
     const Unit column = Unit::parse(place.column.unit);
     const double value = std::abs(place.column.values[place.row].value);
-    if (certificate::measured_at(place.table, place.column, place.row, column).is_place || is_quantity_by_role(place)) {
-        return {};
-    }
+    const auto of_result = inputs.sensitivities.find(place.result);
+    std::vector<InputBeside> beside;
     for (const auto& [name, input] : inputs.values) {
         const Unit unit = Unit::parse(input.unit);
         const bool has_point = place.table.argument && input.values.size() > 1;
@@ -180,13 +198,46 @@ std::string no_share_of_result(const ScopeEntry& entry, const ScopePlace& place,
                                          : has_point              ? input.values.at(place.point)
                                                                   : input.without_point;
         // A column "range" says what the item was set to.
-        if (name != "range" && at && gum::of_one_kind(unit, column) &&
-            value < k_small * std::abs(column.from_si(unit.to_si(*at)))) {
-            return "the capability of \"" + entry.id + "\" is a share, and a result that is small beside \"" + name +
-                   "\" may be an error of it";
+        if (name == "range" || !at || !gum::of_one_kind(unit, column)) {
+            continue;
+        }
+        const double size = std::abs(column.from_si(unit.to_si(*at)));
+        const double* c = nullptr;
+        if (of_result != inputs.sensitivities.end()) {
+            const auto coefficient = of_result->second.find(name);
+            c = coefficient == of_result->second.end() ? nullptr : &coefficient->second;
+        }
+        if (value < small * (c != nullptr ? std::abs(*c) * size : size)) {
+            beside.push_back({.input = {.name = name, .value = *at, .unit = input.unit},
+                              .size = size,
+                              .is_stated = c == nullptr && of_result != inputs.sensitivities.end()});
         }
     }
-    return {};
+    if (beside.empty()) {
+        return std::nullopt;
+    }
+    constexpr double k_equal = 0.9;
+    const double largest = std::ranges::max_element(beside, {}, &InputBeside::size)->size;
+    std::erase_if(beside, [&](const InputBeside& one) { return one.size < k_equal * largest; });
+    return std::ranges::max_element(beside, {}, &InputBeside::is_stated)->input;
+}
+
+/// Whether the job says at which value a result was measured: the result itself, or another one beside it.
+bool is_place_known(const ScopePlace& place) {
+    return place.assumed ||
+           certificate::measured_at(place.table, place.column, place.row, Unit::parse(place.column.unit)).is_place ||
+           is_quantity_by_role(place);
+}
+
+/// Why a capability is no share of the result itself: small beside an input of its kind it may be an error of it, unless
+/// its role says otherwise, and a share of an error would be far less than the scope states. "": it is one.
+std::string no_share_of_result(const ScopeEntry& entry, const ScopePlace& place,
+                               const certificate::CapabilityInputs& inputs) {
+    constexpr double k_small = 0.1;
+    const auto beside = is_place_known(place) ? std::nullopt : input_beside(place, inputs, k_small);
+    return beside ? "the capability of \"" + entry.id + "\" is a share, and a result that is small beside \"" +
+                        beside->name + "\" may be an error of it"
+                  : "";
 }
 
 /// The quantity of which a capability in % or ppm is a share, in the unit of the result.
@@ -197,7 +248,7 @@ Found whole_of_share(const certificate::CertificateData& data, const ScopeEntry&
     for (const ScopeEntry::Range& range : entry.ranges) {
         arguments.push_back(range.argument);
     }
-    const certificate::Measured measured = certificate::measured_at(place.table, place.column, place.row, column);
+    const certificate::HeldAgainst measured = measured_of(place, column);
     for (const CapabilityArgument& argument : arguments) {
         if (!gum::of_one_kind(Unit::parse(argument.unit), column)) {
             continue;
@@ -215,7 +266,7 @@ Found whole_of_share(const certificate::CertificateData& data, const ScopeEntry&
         }
         return whole;
     }
-    if (measured.is_place) {
+    if (place.assumed || certificate::measured_at(place.table, place.column, place.row, column).is_place) {
         return converted(measured.value, measured.unit, place.column.unit, place.column.result);
     }
     // Whether the result is the quantity or an error of it, nobody can say here: a share of an error would be far less
@@ -312,12 +363,12 @@ std::string other_work(const certificate::CertificateData& data, const ScopeEntr
 
 ScopeAnswer answer_of(const certificate::CertificateData& data, const ScopeEntry& entry, const ScopePlace& place,
                       const certificate::CapabilityInputs& inputs) {
-    std::string why = other_work(data, entry);
-    if (why.empty()) {
-        why = out_of_ranges(data, entry, place, inputs);
+    Outside outside{other_work(data, entry)};
+    if (outside.why.empty()) {
+        outside = out_of_ranges(data, entry, place, inputs);
     }
-    if (!why.empty()) {
-        return {.entry = {}, .outside_because = why, .capability = {}};
+    if (!outside.why.empty()) {
+        return {.entry = {}, .outside_because = outside.why, .capability = {}, .outside_by = outside.by};
     }
     Found capability = capability_of(data, entry, place, inputs);
     if (!capability.value) {
@@ -355,19 +406,32 @@ bool is_end(double at, double end) {
     return std::abs(at - end) <= k_range_noise * std::max(std::abs(at), std::abs(end));
 }
 
-/// One line of the scope that covers a value, and where the value lies in its ranges.
+/// Where a line of the scope begins and ends: its ranges, and the first and the last point of its capability.
+std::vector<ScopeEntry::Range> ends_of(const ScopeEntry& entry) {
+    std::vector<ScopeEntry::Range> ends = entry.ranges;
+    const certificate::Capability& c = entry.capability;
+    if ((c.form == "range" || c.form == "table") && !c.arguments.empty() && !c.points.empty()) {
+        ends.push_back({.argument = c.arguments[0], .low = c.points.front().at, .high = c.points.back().at});
+    } else if (c.form == "matrix" && c.arguments.size() == 2 && !c.rows.empty() && !c.columns.empty()) {
+        ends.push_back({.argument = c.arguments[0], .low = c.rows.front(), .high = c.rows.back()});
+        ends.push_back({.argument = c.arguments[1], .low = c.columns.front(), .high = c.columns.back()});
+    }
+    return ends;
+}
+
+/// One line of the scope that covers a value, and where the value lies in it.
 struct Covering {
-    const ScopeEntry* entry = nullptr;
     ScopeAnswer answer;
-    std::vector<std::optional<double>> at;  ///< in the unit of each range; none: of several rows
+    std::vector<ScopeEntry::Range> ends = {};
+    std::vector<std::optional<double>> at = {};  ///< in the unit of each of `ends`; none: of several rows
 };
 
 /// Where one line ends and another one begins at the value: the range of the one that begins; nullptr where they do not.
 const ScopeEntry::Range* range_beyond(const Covering& below, const Covering& above) {
-    for (std::size_t i = 0; i < below.entry->ranges.size(); ++i) {
-        const ScopeEntry::Range& ends = below.entry->ranges[i];
-        for (std::size_t j = 0; j < above.entry->ranges.size(); ++j) {
-            const ScopeEntry::Range& begins = above.entry->ranges[j];
+    for (std::size_t i = 0; i < below.ends.size(); ++i) {
+        const ScopeEntry::Range& ends = below.ends[i];
+        for (std::size_t j = 0; j < above.ends.size(); ++j) {
+            const ScopeEntry::Range& begins = above.ends[j];
             // Below 0 and at it a scope is read in more ways than one.
             if (ends.argument.of == begins.argument.of && below.at[i] && above.at[j] && ends.low >= 0.0 &&
                 ends.low < ends.high && begins.low > 0.0 && begins.low < begins.high &&
@@ -398,18 +462,22 @@ bool gives_way(const Covering& one, const Covering& other, const std::string& ra
 ScopeAnswer scope_of(const certificate::CertificateData& data, const ScopePlace& place,
                      const certificate::CapabilityInputs& inputs) {
     std::vector<Covering> inside;
-    std::string because;
+    ScopeAnswer outside;
     for (const ScopeEntry& entry : data.accreditation->scope) {
         if (!certificate::is_covered(entry.results, place.column.result)) {
             continue;
         }
         ScopeAnswer answer = answer_of(data, entry, place, inputs);
         if (answer.entry.empty()) {
-            because = because.empty() ? answer.outside_because : because;
+            // Of ranges that were left, the nearest one is the one to tell.
+            if (outside.outside_because.empty() ||
+                (answer.outside_by > 0.0 && answer.outside_by < outside.outside_by)) {
+                outside = std::move(answer);
+            }
             continue;
         }
-        Covering& covering = inside.emplace_back(Covering{.entry = &entry, .answer = std::move(answer), .at = {}});
-        for (const ScopeEntry::Range& range : entry.ranges) {
+        Covering& covering = inside.emplace_back(Covering{.answer = std::move(answer), .ends = ends_of(entry)});
+        for (const ScopeEntry::Range& range : covering.ends) {
             covering.at.push_back(argument_of(data, entry, place, inputs, range.argument).value);
         }
     }
@@ -425,10 +493,16 @@ ScopeAnswer scope_of(const certificate::CertificateData& data, const ScopePlace&
     if (!left.empty()) {
         return (*std::ranges::max_element(left, {}, [](const Covering* c) { return *c->answer.capability; }))->answer;
     }
-    if (because.empty()) {
-        because = "no entry of the scope names the result \"" + place.column.result + "\"";
+    if (outside.outside_because.empty()) {
+        outside.outside_because = "no entry of the scope names the result \"" + place.column.result + "\"";
     }
-    return {.entry = {}, .outside_because = std::move(because), .capability = {}};
+    return outside;
+}
+
+std::optional<certificate::HeldAgainst> doubtful_place(const ScopePlace& place,
+                                                       const certificate::CapabilityInputs& inputs) {
+    constexpr double k_difference = 0.5;
+    return is_place_known(place) ? std::nullopt : input_beside(place, inputs, k_difference);
 }
 
 }  // namespace gumcert::reports

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <utility>
 
+#include "certificate/gates/finding_list.h"
 #include "certificate/gates/gates.h"
 #include "certificate/point_limits.h"
 #include "certificate/result_names.h"
@@ -13,6 +15,7 @@
 #include "certificate/statement_of_uncertainty.h"
 #include "gum/budget/evaluation_choice.h"
 #include "gum/coverage.h"
+#include "gum/quantity/unit.h"
 #include "gum/rounding.h"
 #include "reports/record/certified_tables.h"
 #include "reports/record/make/certificate/amended_record.h"
@@ -25,6 +28,7 @@
 #include "reports/record/make/reported_choice.h"
 #include "reports/record/reported_result.h"
 #include "reports/record/stated_values.h"
+#include "text/numbers.h"
 
 namespace gumcert::reports {
 
@@ -99,6 +103,9 @@ public:
                 }
             }
         }
+        certificate::FindingList of_values(data());
+        of_values.add_by_cause(std::exchange(doubtful_, {}));
+        std::ranges::move(of_values.take(), std::back_inserter(findings_));
     }
 
     [[nodiscard]] const std::vector<Finding>& findings() const { return findings_; }
@@ -111,6 +118,7 @@ private:
     std::map<std::string, CertificateData> of_section_;
     std::map<std::string, std::size_t> points_;  ///< of the job, by their names
     std::vector<Finding> findings_;
+    std::vector<certificate::FoundInRow> doubtful_;
 
     /// Position of a row of a table among the points of the job.
     [[nodiscard]] std::size_t point_of(const CertifiedTable& table, std::size_t row) const {
@@ -150,14 +158,15 @@ private:
                        std::size_t row, const Result* result) {
         CertifiedValue& value = column.values[row];
         const double p = result != nullptr ? result->coverage_probability : record_.coverage_probability.number;
-        place_in_scope({.tables = tables,
-                        .table = table,
-                        .column = column,
-                        .row = row,
-                        .point = point_of(table, row),
-                        .coverage_probability = p,
-                        .range = table.argument ? range_of(point_of(table, row)) : std::string()},
-                       value, result);
+        const ScopePlace place{.tables = tables,
+                               .table = table,
+                               .column = column,
+                               .row = row,
+                               .point = point_of(table, row),
+                               .coverage_probability = p,
+                               .range = table.argument ? range_of(point_of(table, row)) : std::string(),
+                               .result = result != nullptr ? result->name : std::string()};
+        place_in_scope(place, value, result);
         PrintRule rule = rule_;
         if (result != nullptr) {
             rule.digits = std::min(rule.digits, reports::printed_digits(reports::reported_result(*result)));
@@ -166,6 +175,7 @@ private:
             rule.rounding = gum::RoundingMode::up;  // as the evaluation prints it
         }
         print(value, rule);
+        note_doubt(place, value);
         note_coverage(column, p);
         decide(column, value, result, point_of(table, row));
     }
@@ -191,6 +201,7 @@ private:
         ScopeAnswer answer = scope_of(data_of(place.table.section), place, inputs_);
         value.scope_entry = std::move(answer.entry);
         value.outside_because = std::move(answer.outside_because);
+        value.outside_by = answer.outside_by;
         if (value.U || value.interval || value.u > 0.0) {  // by definition without uncertainty: no capability either
             value.capability = answer.capability;
         }
@@ -262,6 +273,54 @@ private:
     static void print_ends(CertifiedValue& value, int decimals) {
         value.printed_low = gum::round_to_quantum(value.interval->first, decimals);
         value.printed_high = gum::round_to_quantum(value.interval->second, decimals);
+    }
+
+    /// A result that may be an error of a larger quantity, where the scope allows no U as small as the one that is stated.
+    void note_doubt(const ScopePlace& place, const CertifiedValue& value) {
+        const auto doubtful =
+            value.capability && !value.scope_entry.empty() ? doubtful_place(place, inputs_) : std::nullopt;
+        if (!doubtful) {
+            return;
+        }
+        ScopePlace other = place;
+        other.assumed = doubtful;
+        const ScopeAnswer there = scope_of(data_of(place.table.section), other, inputs_);
+        constexpr double k_same = 1.02;  // what two digits of U do not show
+        if (!there.capability || *there.capability <= k_same * *value.capability) {
+            return;
+        }
+        const auto with_unit = [](const std::string& number, const std::string& unit) {
+            const std::string people = gum::unit_for_people(unit);
+            return people.empty() ? number : number + " " + people;
+        };
+        const double half_width = value.interval ? 0.5 * (value.interval->second - value.interval->first) : 0.0;
+        const bool is_below = value.printed_U.empty()
+                                  ? half_width < *there.capability
+                                  : certificate::is_below_capability(value.printed_U, *there.capability);
+        if (!is_below) {
+            return;
+        }
+        const std::string U = value.printed_U.empty() ? gum::round_significant(half_width, 2) : value.printed_U;
+        doubtful_.push_back(
+            {.table = &place.table,
+             .column = &place.column,
+             .row = place.row,
+             .finding = {.id = "X12",
+                         .clause = "ILAC-P14:09/2020",
+                         .severity = certificate::FindingSeverity::major,
+                         .where = {},
+                         .what = "it is not said whether \"" + place.column.result + "\" is an error of \"" +
+                                 doubtful->name +
+                                 "\" = " + with_unit(text::shortest_plain(doubtful->value), doubtful->unit) +
+                                 ": the scope entry \"" + there.entry + "\" allows U from " +
+                                 with_unit(certificate::printed_capability(*there.capability), place.column.unit) +
+                                 " there, and U is stated as " + with_unit(U, place.column.unit),
+                         .action = "Where the result is an error, a deviation or a correction, state its role in the "
+                                   "outputs of the job, and that of its nominal value (\"role\": \"nominal\") in a "
+                                   "column of points that the table shows; where it is the quantity itself, state "
+                                   "\"role\": \"measured_value\". A job "
+                                   "without points needs one of them (\"points\")."},
+             .badness = *there.capability / *value.capability});
     }
 
     void note_coverage(const CertifiedColumn& column, double p) {

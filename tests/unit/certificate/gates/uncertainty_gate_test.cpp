@@ -75,6 +75,29 @@ TEST(UncertaintyGate, FindsARuleThatCannotBeApplied) {
               "Correct the unit of the specification, or the results that it names.");
 }
 
+// Columns of one cause may have other units: 20 mV of 10 mV is worse than 1 V of 5 V, and 30 is more than 1.
+TEST(UncertaintyGate, TellsTheWorstByWhatItIsToDecideOn) {
+    Certificate c = passed_certificate();
+    CertifiedTable& table = c.tables[0];
+    table.columns.resize(1);
+    table.columns.push_back(table.columns[0]);
+    table.columns[1].result = "E";
+    const auto put = [&](std::size_t column, double U, double tolerance, const std::string& unit) {
+        CertifiedValue& v = table.columns[column].values[0];
+        v.U = U;
+        v.verdict->lower = -0.5 * tolerance;
+        v.verdict->upper = 0.5 * tolerance;
+        v.verdict->verdict = v.verdict->verdict_from_printed = "not_applicable";
+        v.verdict->note = "U is " + std::to_string(U / tolerance) + " of the tolerance";
+        table.columns[column].unit = unit;
+    };
+    put(0, 6.0, 5.0, "V");
+    put(1, 1.5, 1.0, "mV");
+    EXPECT_THAT(only(uncertainty_findings(c)).what, testing::HasSubstr("those of \"E\", the worst of 2"));
+    put(0, 0.006, 0.005, "kV");
+    EXPECT_THAT(only(uncertainty_findings(c)).what, testing::HasSubstr("those of \"E\", the worst of 2"));
+}
+
 TEST(UncertaintyGate, SaysThatADefinedValueIsNotDecided) {
     Certificate c = passed_certificate();
     CertifiedValue& v = length(c);

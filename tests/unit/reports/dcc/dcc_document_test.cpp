@@ -608,6 +608,7 @@ TEST(DccDocument, WritesAnItemOfSeveralSectionsOnce) {
         own.item->serial_number = std::string(name) == "b" ? "SN-B" : "SN-A";
         own.item->condition = std::string(name) == "c" ? "Seal broken" : "No damage seen";
         own.item->owner = std::string(name) == "c" ? "Second owner" : "First owner";
+        own.item->stated_by_customer = {std::string(name) == "a" ? "condition" : "owner"};
     }
     const auto count = [](const std::string& text, const std::string& of) {
         std::size_t n = 0;
@@ -620,9 +621,12 @@ TEST(DccDocument, WritesAnItemOfSeveralSectionsOnce) {
     EXPECT_EQ(count(text, "<dcc:item id="), 2U);
     EXPECT_EQ(count(text, "<dcc:measurementResult refId=\"item_2\">"), 2U);
     EXPECT_EQ(count(text, "<dcc:measurementResult refId=\"item_3\">"), 1U);
-    EXPECT_EQ(count(text, "SN-A"), 1U);
+    EXPECT_EQ(count(text, ">SN-A<"), 1U);
     EXPECT_THAT(text, HasSubstr("Seal broken")) << "what a section says of it is kept";
     EXPECT_THAT(text, HasSubstr("Second owner"));
+    EXPECT_EQ(count(text, "does not answer for it"), 3U) << "each item has what the customer stated of it";
+    EXPECT_THAT(text, HasSubstr("(SN-A): "));
+    EXPECT_THAT(text, HasSubstr("(SN-B): "));
     EXPECT_TRUE(business_rule_breaches(read_dcc_root(text, "own"), "own").empty());
     c.data.item = *c.data.sections[0].item;  // that of the certificate, too
     const std::string of_all = checked(record);

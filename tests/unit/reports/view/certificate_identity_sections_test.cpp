@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -134,6 +135,33 @@ TEST(CertificateIdentity, SummarisesTheVerdictsWithTheirRule) {
     record.certificate->data.specifications.clear();
     EXPECT_THAT(lines_of_section(page_of(record), "summary"),
                 ElementsAre("Results=see the following pages", "Conformity=No statement of conformity was requested."));
+}
+
+// That an item failed before its adjustment says nothing of how it leaves the laboratory.
+TEST(CertificateIdentity, SummarisesVerdictsBeforeAndAfterAnAdjustmentApart) {
+    EvaluationRecord record = test::certified_rotary_record();
+    certificate::CertifiedTable* of_axial = nullptr;
+    for (certificate::CertifiedTable& table : record.certificate->tables) {
+        for (certificate::CertifiedColumn& column : table.columns) {
+            of_axial = column.result == "EAA" ? &table : of_axial;
+        }
+    }
+    ASSERT_NE(of_axial, nullptr);
+    const auto axial = std::ranges::find(of_axial->columns, "EAA", &certificate::CertifiedColumn::result);
+    certificate::CertifiedColumn before = *axial;
+    before.result = "EAF";
+    before.values[4].verdict->verdict = "fail";
+    of_axial->columns.push_back(before);
+    certificate::TableLayout& layout = of_axial->layout.emplace();
+    layout.shown = {{.show = "value", .of = "EAA", .heading = {}, .role = "error", .stage = "as_left"},
+                    {.show = "value", .of = "EAF", .heading = {}, .role = "error", .stage = "as_found"}};
+    const std::vector<std::string> lines = lines_of_section(page_of(record), "summary");
+    ASSERT_GE(lines.size(), 3U);
+    EXPECT_THAT(lines[1], HasSubstr("As found, EAF: pass (35 of 36 values), fail (1 of 36 values); decision rule"));
+    EXPECT_THAT(lines[2], HasSubstr("As left, EAA: pass (36 of 36 values); decision rule"));
+    layout.shown[1].stage = "as_left";
+    EXPECT_THAT(lines_of_section(page_of(record), "summary").at(1), HasSubstr("pass (71 of 72 values), fail"))
+        << "of one stage in one line";
 }
 
 TEST(CertificateIdentity, StatesTheOneResultInALine) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
 #include <string>
 
 #include "tests/support/budget_campaign.h"
@@ -48,6 +49,24 @@ TEST(CapabilityInputs, HoldWhatTheResultsOfASectionRestOn) {
     EXPECT_EQ(inputs.values.at("f").values[1], 60.0);
     EXPECT_EQ(inputs.values.at("f").values[2], std::nullopt);
     EXPECT_NEAR(inputs.values.at("t").without_point.value(), 23.0, 1e-12);
+}
+
+// Whether a result is a small difference of large inputs is told by what each makes of it.
+TEST(CapabilityInputs, HoldWhatEachInputMakesOfAResult) {
+    jobs::BudgetJob job = jobs::test::read_budget(
+        R"("inputs": {"n": {"unit": "mm", "constant": true, "role": "nominal"}, "x": {"unit": "mm"},
+                      "r": {"value": 10, "unit": "cm", "u": 0.1}, "d": {"value": 0, "unit": "mm", "u": 0.1}},
+           "model": ["E = x - r + d", "q = 0.25*x"], "outputs": {"E": {"unit": "um"}, "q": {"unit": "mm"}},
+           "points": [{"n": 20, "x": {"value": 20.1, "u": 0.1}}, {"n": 30, "x": {"value": 30.1, "u": 0.1}}])");
+    job.certificate = test::sample_certificate_data();
+    const auto all = capability_inputs(job, gum::evaluate_budget(job, 1)).sensitivities;
+    ASSERT_EQ(all.size(), 4U);
+    const std::map<std::string, double> of_error{{"d", 1.0}, {"r", -1.0}, {"x", 1.0}};
+    EXPECT_EQ(all.at("E[2]"), of_error) << "the nominal value may be what it is an error of: none";
+    const std::map<std::string, double> of_share{{"d", 0.0}, {"r", 0.0}, {"x", 0.25}};
+    EXPECT_EQ(all.at("q[1]"), of_share);
+    job.certificate->accreditation.reset();
+    EXPECT_TRUE(capability_inputs(job, gum::evaluate_budget(job, 1)).sensitivities.empty());
 }
 
 // A nominal value that no equation of the section needs says where in the scope a result lies, as it says which limits it has.

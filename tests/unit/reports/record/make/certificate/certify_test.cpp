@@ -353,6 +353,12 @@ TEST(Certify, TakesTheRangeThatEndsAtTheValue) {
     EXPECT_EQ(entry(100.0, {low, entry_of("high", 99.0, 1000.0, 3.0)}), "high") << "both cover it: the larger one";
     EXPECT_EQ(entry(0.0, {entry_of("below", -10.0, 0.0, 1.0), entry_of("above", 0.0, 10.0, 3.0)}), "above")
         << "at 0 nobody knows which one is meant";
+    for (const auto& scope : {std::vector{low, high}, std::vector{high, low}}) {
+        data.accreditation->scope = scope;
+        const auto why = [&](double value) { return certified(one_result(value, 9.0, "m"), data).outside_because; };
+        EXPECT_THAT(why(1200.0), HasSubstr("\"high\"")) << "the range that is nearest is told";
+        EXPECT_THAT(why(0.5), HasSubstr("\"low\""));
+    }
     auto in_km = entry_of("high", 0.1, 1.0, 3.0);
     in_km.ranges[0].argument.unit = "km";
     EXPECT_EQ(entry(100.0, {low, in_km}), "low") << "in another unit";
@@ -421,6 +427,153 @@ TEST(Certify, TakesTheRangeOfTheScopeThatThePointIsIn) {
     EXPECT_THAT(found, HasSubstr("m:low"));
 }
 
+/// The points of a capability end and begin as ranges do.
+TEST(Certify, TakesThePointsThatEndAtTheValue) {
+    CertificateData data = data_with(test::capability_of_one_value(1.0, "m"));
+    const auto of = [](const std::string& id, const std::string& form, double low, double high, double U) {
+        certificate::ScopeEntry entry;
+        entry.id = id;
+        entry.results = {"l"};
+        const certificate::CapabilityArgument length{.name = "L", .unit = "m"};
+        if (form == "matrix") {
+            entry.capability = Capability{.form = form,
+                                          .unit = "m",
+                                          .arguments = {{.name = "T", .unit = "m", .of = "T"}, length},
+                                          .rows = {0.0, 5.0},
+                                          .columns = {low, high},
+                                          .matrix = {{U, U}, {U, U}},
+                                          .lookup = "linear"};
+        } else {
+            entry.capability = Capability{.form = form,
+                                          .unit = "m",
+                                          .arguments = {length},
+                                          .points = {{.at = low, .U = U}, {.at = high, .U = U}},
+                                          .lookup = "linear"};
+        }
+        return entry;
+    };
+    data.parameters = {{.name = "T", .unit = "m", .value = 2.0}};
+    const auto entry = [&](double value, std::vector<certificate::ScopeEntry> scope) {
+        data.accreditation->scope = std::move(scope);
+        return certified(one_result(value, 9.0, "m"), data).scope_entry;
+    };
+    for (const char* form : {"range", "table", "matrix"}) {
+        for (const char* other : {"range", "table", "matrix", "ranges"}) {
+            SCOPED_TRACE(std::string(form) + " and " + other);
+            const auto low = of("low", form, 1.0, 100.0, 1.0);
+            const auto high = other == std::string("ranges") ? entry_of("high", 100.0, 1000.0, 3.0)
+                                                             : of("high", other, 100.0, 1000.0, 3.0);
+            EXPECT_EQ(entry(100.0, {low, high}), "low");
+            EXPECT_EQ(entry(100.0, {high, low}), "low");
+            EXPECT_EQ(entry(101.0, {low, high}), "high");
+            EXPECT_EQ(entry(100.0, {of("low", form, 1.0, 101.0, 1.0), high}), "high") << "both cover it";
+        }
+    }
+}
+
+/// A result that is small beside an input of its kind may be an error of it, and its capability is that of the input then.
+/// Whatever the scope is worded by, U is not stated below that in silence.
+TEST(Certify, SaysThatACapabilityMayHaveToBeTakenElsewhere) {
+    const certificate::CapabilityArgument length{.name = "L", .unit = "m"};
+    // Each allows 1 mm at 1 cm, and 100 mm at 100 m, or a little more.
+    const std::vector<Capability> forms{
+        {.form = "function", .unit = "mm", .arguments = {length}, .expression = "1 + 0.99*L"},
+        {.form = "value", .unit = "mm", .U = 1.0, .ppm_of_value = 990.0, .arguments = {length}},
+        {.form = "range", .unit = "mm", .arguments = {length}, .points = {{.at = 0, .U = 1}, {.at = 100, .U = 100}}},
+        {.form = "table",
+         .unit = "mm",
+         .arguments = {length},
+         .points = {{.at = 0, .U = 1}, {.at = 1, .U = 1}, {.at = 100, .U = 100}},
+         .lookup = "linear"}};
+    std::vector<CertificateData> scopes;
+    for (const Capability& form : forms) {
+        scopes.push_back(data_with(form));
+        scopes.back().accreditation->scope[0].ranges = {{.argument = length, .low = 0.0, .high = 200.0}};
+    }
+    scopes.push_back(data_with(forms[0]));
+    scopes.back().accreditation->scope = {entry_of("short", 0.0, 1.0, 0.001), entry_of("long", 1.0, 200.0, 0.1)};
+    for (CertificateData& data : scopes) {
+        SCOPED_TRACE(data.accreditation->scope[0].capability.form);
+        const auto found = [&](double y, double U, const certificate::CapabilityInputs& inputs) {
+            EvaluationRecord record = one_result(y, U, "m");
+            certify(record, data, {}, inputs);
+            std::string told;
+            for (const Finding& f : record.certificate->findings) {
+                if (f.id == "X12") {
+                    EXPECT_EQ(f.severity, certificate::FindingSeverity::major);
+                    EXPECT_EQ(f.where, "l");
+                    told += f.what;
+                }
+            }
+            return told;
+        };
+        // Where lines of ranges state one value each, a tenth of the input would be in the right one.
+        const double y = data.accreditation->scope.size() > 1 ? 0.5 : 15.0;
+        certificate::CapabilityInputs inputs;
+        inputs.values["l_0"] = {.unit = "cm", .values = {10000.0}};
+        EXPECT_THAT(found(y, 0.05, inputs), HasSubstr("an error of \"l_0\" = 10000 cm"));
+        inputs.sensitivities["l"] = {{"l_0", -1.0}};
+        // A share of a small result is none by another rule: it is outside.
+        if (!data.accreditation->scope[0].capability.ppm_of_value) {
+            EXPECT_THAT(found(0.01, 0.05, inputs), HasSubstr("allows U from 0.1 m"));
+        }
+        EXPECT_EQ(found(y, 0.2, inputs), "") << "U is what the scope allows there";
+        EXPECT_EQ(found(60.0, 0.05, inputs), "") << "no small part of it";
+        inputs.sensitivities["l"] = {{"l_0", 0.01 * y}};
+        EXPECT_EQ(found(y, 0.05, inputs), "") << "a ratio of it, and no difference";
+        inputs.sensitivities["l"] = {};
+        EXPECT_NE(found(y, 0.05, inputs), "") << "perhaps its nominal value";
+        inputs.sensitivities["l"] = {{"l_0", -1.0}, {"l_x", 1.0}};
+        inputs.values["l_x"] = {.unit = "m", .values = {101.0}};
+        EXPECT_THAT(found(y, 0.05, inputs), HasSubstr("\"l_0\"")) << "of two that are equal but for an error";
+        inputs.values["n"] = {.unit = "m", .values = {99.0}};
+        EXPECT_THAT(found(y, 0.05, inputs), HasSubstr("\"n\" = 99 m")) << "the nominal value";
+        inputs.values = {{"range", {.unit = "m", .values = {100.0}}}, {"t", {.unit = "s", .values = {1e6}}}};
+        EXPECT_EQ(found(y, 0.05, inputs), "") << "a range of the item, and another kind";
+        inputs.values = {{"l_0", {.unit = "m", .values = {300.0}}}};
+        EXPECT_EQ(found(y, 0.05, inputs), "") << "not in the scope: it is one of small quantities";
+    }
+}
+
+/// Who says what the result is, is not asked.
+TEST(Certify, TakesACapabilityWhereTheRoleSays) {
+    CertificateData data = data_with(
+        {.form = "function", .unit = "mm", .arguments = {{.name = "L", .unit = "m"}}, .expression = "1 + 0.99*L"});
+    data.accreditation->scope[0].ranges = {{.argument = {.name = "L", .unit = "m"}, .low = 0.0, .high = 200.0}};
+    certificate::CapabilityInputs inputs;
+    inputs.values["l_0"] = {.unit = "m", .values = {100.0, 100.0}};
+    EvaluationRecord record = at_two_points(one_result(1.0, 0.05, "m"));
+    record.points->columns = {{.name = "l_0",
+                               .heading = {},
+                               .role = "nominal",
+                               .stage = "",
+                               .unit = "m",
+                               .printed_unit = "m",
+                               .values = {100.0, 100.0},
+                               .printed = {"100", "100"}}};
+    const auto found = [&](const std::string& role, const std::string& of_column = "nominal") {
+        EvaluationRecord one = record;
+        certificate::TableRequest& table = one.points->tables.emplace_back();
+        table.columns = {{.show = "column", .of = "l_0", .heading = {}, .role = of_column, .stage = ""},
+                         {.show = "value", .of = "l", .heading = {}, .role = role, .stage = ""},
+                         {.show = "U", .of = "l", .heading = {}, .role = "", .stage = ""}};
+        one.points->columns[0].role = of_column;
+        certify(one, data, {}, inputs);
+        const auto& value = one.certificate->tables.at(0).columns.at(0).values.at(0);
+        for (const Finding& f : one.certificate->findings) {
+            if (f.id == "X12") {
+                EXPECT_EQ(f.where, "l, points a, b");
+                return value.printed_U + " X12";
+            }
+        }
+        return value.printed_U;
+    };
+    EXPECT_EQ(found(""), "0.050 X12");
+    EXPECT_EQ(found("measured_value"), "0.050");
+    EXPECT_EQ(found("error"), "0.10") << "at its nominal value, as the scope has it there";
+    EXPECT_EQ(found("error", ""), "0.050 X12") << "an error of nothing";
+}
+
 /// An error is far less than what it is an error of, and so would be its share.
 TEST(Certify, TakesNoShareOfAnErrorOrOfAnotherNumber) {
     CertificateData data = data_with(test::capability_of_one_value(1.0, "percent"));
@@ -431,6 +584,11 @@ TEST(Certify, TakesNoShareOfAnErrorOrOfAnotherNumber) {
     inputs.values["l_0"] = {.unit = "cm", .values = {9999.0}};
     EXPECT_EQ(value(100.0).capability, 1.0);
     EXPECT_THAT(value(1.0).outside_because, HasSubstr("small beside \"l_0\"")) << "100 m beside 1 m";
+    inputs.sensitivities["l"] = {{"l_0", -1.0}};
+    EXPECT_THAT(value(1.0).outside_because, HasSubstr("small beside"));
+    inputs.sensitivities["l"] = {{"l_0", 0.01}};
+    EXPECT_EQ(value(1.0).capability, 0.01) << "a hundredth of it by a ratio is no difference";
+    inputs.sensitivities.clear();
     inputs.values = {{"range", {.unit = "km", .values = {1.0}}}, {"t", {.unit = "s", .values = {1e6}}}};
     EXPECT_EQ(value(1.0).capability, 0.01) << "a range of the item, and another kind";
     inputs.values = {{"l_0", {.unit = "m", .values = {100.0}}}};
