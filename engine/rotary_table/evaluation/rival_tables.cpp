@@ -256,7 +256,7 @@ private:
             return fit;
         }
         PlacedAdjustment robust = placed;
-        robust.adjustment = JointAdjustment(measurement_, active_, placed.set_up, placed.start, stochastic_);
+        robust.adjustment = adjustment_from_start(measurement_, active_, placed.set_up, placed.start, stochastic_);
         robust.adjustment.adjustment().set_workers(placed.adjustment.adjustment().workers());
         SolverOptions solver = solver_;
         solver.robust_scale = k_robust_scale;
@@ -293,6 +293,15 @@ private:
 
 }  // namespace
 
+JointAdjustment adjustment_from_start(const RotaryTableMeasurement& measurement, const std::vector<bool>& active,
+                                      const RigidMotion& set_up, const StartValues& start,
+                                      const StochasticModel& stochastic) {
+    JointAdjustment adjustment(measurement, active, set_up, start, stochastic);
+    adjustment.turn_about(start.set_up);
+    adjustment.set_weights(stochastic);
+    return adjustment;
+}
+
 PlacedAdjustment placed_adjustment(const ObservedStations& observed, const std::vector<bool>& active, CommonFit places,
                                    const StochasticModel& stochastic, const Workers& workers) {
     const RotaryTableMeasurement& measurement = observed.measurement();
@@ -305,7 +314,7 @@ PlacedAdjustment placed_adjustment(const ObservedStations& observed, const std::
             station = set_up * station;
         }
     }
-    JointAdjustment adjustment(measurement, active, set_up, start, stochastic);
+    JointAdjustment adjustment = adjustment_from_start(measurement, active, set_up, start, stochastic);
     adjustment.adjustment().set_workers(workers);
     return {std::move(places), set_up, std::move(start), std::move(adjustment)};
 }

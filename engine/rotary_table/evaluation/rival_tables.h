@@ -20,6 +20,13 @@ struct PlacedAdjustment {
 // Whitened residual of a visit, together, above which a robust search lets it count less.
 constexpr double k_robust_scale = 10.0;
 
+/// Not solved. It begins where the start values are, the table turning about the axis that they have.
+/// \param set_up  T_s that it holds
+/// \param start   positions with that T_s
+[[nodiscard]] JointAdjustment adjustment_from_start(const RotaryTableMeasurement& measurement,
+                                                    const std::vector<bool>& active, const RigidMotion& set_up,
+                                                    const StartValues& start, const StochasticModel& stochastic);
+
 /// Not solved.
 /// \param observed  of the same distances
 /// \param active    one flag a length: false = left out
