@@ -434,6 +434,16 @@ void JointAdjustment::set_pose(std::size_t angle, const Vector6& motions) {
     adjustment_.set_parameters(pose_blocks_[angle], std::move(pose));
 }
 
+void JointAdjustment::turn_about(const RigidMotion& set_up) {
+    const RigidMotion change = set_up * set_up_.inverse();
+    for (std::size_t i = 0; i < pose_blocks_.size(); ++i) {
+        if (i != measurement_->home) {
+            const RigidMotion turn{nominal_rotation(*measurement_, i), Eigen::Vector3d::Zero()};
+            set_pose(i, motion_parameters(change.inverse() * turn * change * turn.inverse()));
+        }
+    }
+}
+
 StartValues JointAdjustment::present_values() const {
     StartValues values;
     for (const auto block : station_blocks_) {

@@ -107,6 +107,9 @@ public:
     [[nodiscard]] Eigen::Matrix<double, 6, 1> mean_reversal() const;
     /// Other error motions of an angle; its reversal stays.
     void set_pose(std::size_t angle, const Eigen::Matrix<double, 6, 1>& motions);
+    /// The error motions of a table without any that turns about the axis of another set-up than the one that is held: E R T_s p = T_s T⁻¹ R T p.
+    /// \param set_up  T
+    void turn_about(const RigidMotion& set_up);
     [[nodiscard]] StartValues present_values() const;
     void copy_parameters_from(const JointAdjustment& other);
 

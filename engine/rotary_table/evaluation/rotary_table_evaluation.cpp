@@ -961,8 +961,9 @@ Adjusted adjust_and_test(const RotaryTableMeasurement& measurement, StartSearch&
     };
     // What is largest hides what is smaller: the search goes on while it finds something.
     for (int search = 0; search < k_most_gross_searches && may_leave_out && is_grossly_wrong(); ++search) {
-        JointAdjustment robust(measurement, active, placed.set_up, search == 0 ? placed.start : first.present_values(),
-                               stochastic);
+        JointAdjustment robust =
+            search == 0 ? adjustment_from_start(measurement, active, placed.set_up, placed.start, stochastic)
+                        : JointAdjustment(measurement, active, placed.set_up, first.present_values(), stochastic);
         const std::vector<std::size_t> deviating = find_gross_deviations(robust, rough);
         if (search > 0 && deviating.empty()) {
             break;

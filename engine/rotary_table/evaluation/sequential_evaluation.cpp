@@ -5,7 +5,6 @@
 #include <limits>
 #include <utility>
 
-#include "engine/rotary_table/start/start_values.h"
 #include "gum/quantity/dense_factors.h"
 #include "gum/quantity/units.h"
 #include "text/numbers.h"
@@ -129,7 +128,12 @@ public:
             const std::vector<std::size_t>& paths = paths_[distance.station];
             distance.path = std::find(paths.begin(), paths.end(), distance.dead_path) - paths.begin();
         }
-        start_ = find_start_values(measurement_, joint.solved().active());
+        // Where the joint adjustment ended, of which rivals were asked: a search alone may stand on a false side.
+        start_ = joint.solved().present_values();
+        const RigidMotion fixture_from_table = joint.solved().set_up().inverse();
+        for (Eigen::Vector3d& station : start_.stations) {
+            station = fixture_from_table * station;
+        }
     }
 
     [[nodiscard]] const std::vector<gum::InputGroup>& inputs() const override { return inputs_; }

@@ -125,33 +125,36 @@ bool has_mirrored_table(const ObservedStations& observed, const Eigen::Vector4d&
     return mirrored[axial] > std::min(std::cos(k_upright), axis[axial]);
 }
 
+CommonFit fit_on_other_side(const ObservedStations& observed, const CommonFit& from, bool known) {
+    std::vector<std::size_t> all(from.stations.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    CommonFit other;
+    other.set_up = known ? from.set_up : Eigen::Vector4d(Eigen::Vector4d::Zero());
+    other.stations = from.stations;
+    for (const std::size_t j : all) {
+        const Eigen::Vector3d image =
+            mirror_image(observed.positions(j, from.set_up, false).point, from.stations[j].position);
+        other.stations[j] = refined(observed, j, image, other.set_up, !known, Pull::of_all, Prior::strong);
+    }
+    descend(observed, all, other.set_up, other.stations, true, k_fine_step, Pull::of_all, Prior::strong);
+    descend(observed, all, other.set_up, other.stations, true, k_fine_step, Pull::of_those_that_agree, Prior::strong);
+    return other;
+}
+
 bool has_other_side(const ObservedStations& observed, const CommonFit& within) {
-    constexpr double k_same_place = 0.01;  // [m]
     if (has_mirrored_table(observed, within.set_up)) {
         return true;
     }
-    std::vector<std::size_t> all(within.stations.size());
-    std::iota(all.begin(), all.end(), std::size_t{0});
-    // From the same set-up and from the one of which nothing is known: each may lead back.
     for (const bool known : {true, false}) {
-        CommonFit other;
-        other.set_up = known ? within.set_up : Eigen::Vector4d(Eigen::Vector4d::Zero());
-        other.stations = within.stations;
-        for (const std::size_t j : all) {
-            const Eigen::Vector3d image =
-                mirror_image(observed.positions(j, within.set_up, false).point, within.stations[j].position);
-            other.stations[j] = refined(observed, j, image, other.set_up, !known, Pull::of_all, Prior::strong);
-        }
-        descend(observed, all, other.set_up, other.stations, true, k_fine_step, Pull::of_all, Prior::strong);
-        descend(observed, all, other.set_up, other.stations, true, k_fine_step, Pull::of_those_that_agree,
-                Prior::strong);
+        const CommonFit other = fit_on_other_side(observed, within, known);
         double squares = 0.0;
         double squares_of_other = 0.0;
         bool elsewhere = false;
-        for (const std::size_t j : all) {
+        for (std::size_t j = 0; j < within.stations.size(); ++j) {
             squares += within.stations[j].misfit * within.stations[j].misfit;
             squares_of_other += other.stations[j].misfit * other.stations[j].misfit;
-            elsewhere = elsewhere || (other.stations[j].position - within.stations[j].position).norm() > k_same_place;
+            elsewhere =
+                elsewhere || (other.stations[j].position - within.stations[j].position).norm() > k_rival_distance;
         }
         if (elsewhere && squares_of_other < k_rival_factor * k_rival_factor * squares) {
             return true;

@@ -29,6 +29,10 @@ struct CommonFit {
 /// more than 10° beside its coordinate, that is no set-up that anybody has. Exact, and not looked for: no descent can miss it.
 [[nodiscard]] bool has_mirrored_table(const ObservedStations& observed, const Eigen::Vector4d& set_up);
 
+/// All stations by the strong prior from the other sides of the planes of their points.
+/// \param known  from the same set-up; else from the one of which nothing is known: each may lead back
+[[nodiscard]] CommonFit fit_on_other_side(const ObservedStations& observed, const CommonFit& from, bool known);
+
 /// Whether all stations fit on the other sides of the planes of their points as well, with another set-up: then distances do
 /// not tell which of both is the table.
 /// \param within  of `fit_within_reach`

@@ -16,5 +16,7 @@ constexpr double k_share_with_right_labels = 0.05;
 constexpr double k_mad_to_deviation = 1.4826;
 /// A rival with less than this times the misfit explains as much.
 constexpr double k_rival_factor = 2.0;
+/// Two places nearer to each other than that are one. [m]
+constexpr double k_rival_distance = 0.01;
 
 }  // namespace gumcert::engine

@@ -19,7 +19,6 @@ namespace gumcert::engine {
 
 namespace {
 
-constexpr double k_rival_distance = 0.01;       // [m]
 constexpr double k_cone_singular_ratio = 1e-6;  // that of SolverOptions::rank_tolerance, as singular values
 
 /// A direction n with n·u the same for every reflector and angle of a dead path: nothing tells how far along n the
@@ -271,6 +270,11 @@ void refuse_either(const RotaryTableMeasurement& measurement, const std::vector<
         refuse_sides(measurement, fits, open, other,
                      "reflectors nearly in one plane near the one across the axis: with the fixture inclined to the "
                      "other side their mirror image has nearly the same distances");
+    }
+    if (rival == RivalTable::fitting_badly) {
+        refuse_sides(measurement, fits, open, other,
+                     "of two tables that the distances fit alike badly neither is a result, and no search found one "
+                     "that they fit well");
     }
     refuse_sides(measurement, fits, open, other, "of two tables that the distances fit alike neither is a result");
 }

@@ -40,9 +40,10 @@ void settle_open_places(const ObservedStations& observed, CommonFit& found);
 
 /// What a table is to one that fits as well.
 enum class RivalTable {
-    same_distances,    ///< its mirror image, of reflectors in one plane
-    nearly_mirrored,   ///< of reflectors nearly in one plane
-    with_other_places  ///< any other
+    same_distances,     ///< its mirror image, of reflectors in one plane
+    nearly_mirrored,    ///< of reflectors nearly in one plane
+    with_other_places,  ///< any other
+    fitting_badly       ///< any, where neither fits as a table does
 };
 
 /// Of two tables that fit alike none is the result.

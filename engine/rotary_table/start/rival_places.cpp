@@ -45,9 +45,9 @@ CommonFit fit_by_turns(const ObservedStations& observed, CommonFit from) {
 }
 
 bool stands_elsewhere(const std::vector<Eigen::Vector3d>& one, const std::vector<Eigen::Vector3d>& other) {
-    constexpr double k_same_place = 0.01;  // [m]
-    return !std::ranges::equal(
-        one, other, [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return (a - b).norm() < k_same_place; });
+    return !std::ranges::equal(one, other, [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+        return (a - b).norm() < k_rival_distance;
+    });
 }
 
 std::optional<CommonFit> mirrored_table(const ObservedStations& observed, const CommonFit& found) {

@@ -113,6 +113,35 @@ TEST(JointAdjustment, CoarseSetUpIsExactNotLinear) {
     }
 }
 
+// A fixture that stands centimetres and degrees off the axis has error motions as large about the one that is held.
+TEST(JointAdjustment, BeginsAtTheAxisOfItsStartValues) {
+    for (const RotaryAxis axis : {RotaryAxis::a, RotaryAxis::b, RotaryAxis::c}) {
+        CampaignPlan plan;
+        plan.axis = axis;
+        plan.angles_deg = synthetic::full_turn(8);
+        plan.home = 3;
+        plan.offset = {20e-3, -15e-3};
+        plan.tilt = {0.05, -0.03};
+        plan.noise = 0.0;
+        plan.error_factor = 0.0;
+        const Campaign campaign = simulate(plan);
+        const RigidMotion set_up = rigid_motion(campaign.truth.set_up);
+        Vector6 other;
+        other << 1e-3, -2e-3, 3e-3, 0.01, -0.02, 0.03;
+        for (const RigidMotion& held : {RigidMotion{}, set_up, rigid_motion(other)}) {
+            StartValues start{campaign.truth.stations, campaign.truth.dead_paths, set_up};
+            for (Eigen::Vector3d& station : start.stations) {
+                station = held * (set_up.inverse() * station);
+            }
+            JointAdjustment adjustment(campaign.measurement,
+                                       std::vector<bool>(campaign.measurement.lengths.size(), true), held, start,
+                                       StochasticModel{});
+            adjustment.turn_about(set_up);
+            EXPECT_LT(adjustment.adjustment().linearise().chi_square(), 1e-6);
+        }
+    }
+}
+
 TEST(JointAdjustment, GivenStartValuesLeadToTheSameSolution) {
     CampaignPlan plan;
     plan.angles_deg = synthetic::full_turn(12);

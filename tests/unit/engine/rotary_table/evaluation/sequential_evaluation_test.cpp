@@ -3,11 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
 
+#include "engine/rotary_table/start/start_values.h"
 #include "gum/quantity/diagnostic.h"
+#include "tests/support/few_reflectors.h"
 #include "tests/support/synthetic_campaign.h"
 
 namespace gumcert::engine {
@@ -60,6 +63,25 @@ TEST(SequentialEvaluation, TestsTheResidualsOfTheJointOne) {
         EXPECT_EQ(stages.variance_factor, joint.variance_factor);
         EXPECT_LT(stages.variance_factor, 1.5);
     }
+}
+
+// 0.2 mm out of a plane a search alone takes the false side of every third table, where the first stage has a minimum, too.
+TEST(SequentialEvaluation, StandsOnTheSideOfTheJointOne) {
+    std::size_t begins_wrong = 0;
+    for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+        synthetic::CampaignPlan plan = synthetic::ring_of_few(seed, 5, {0.0498, 0.0502}, 315.0, 0.02);
+        plan.dead_paths = synthetic::DeadPaths::per_station;
+        synthetic::Campaign campaign = synthetic::simulate(plan);
+        campaign.measurement.table_repeatability = {};
+        campaign.measurement.table_repeatability.mode = RepeatabilityMode::estimate;
+        const RotaryTableSolution stages = evaluate_sequentially(campaign.measurement, EvaluationOptions{});
+        const StartValues start = find_start_values(campaign.measurement);
+        for (std::size_t j = 0; j < stages.stations.size(); ++j) {
+            EXPECT_LT((stages.stations[j].position - campaign.truth.stations[j]).norm(), 0.1) << seed << ", " << j;
+        }
+        begins_wrong += (start.stations[0] - campaign.truth.stations[0]).norm() > 0.1 ? 1U : 0U;
+    }
+    EXPECT_GE(begins_wrong, 3U) << "nothing is tested";
 }
 
 TEST(SequentialEvaluation, RefusesAnInclinedFixture) {

@@ -52,6 +52,19 @@ TEST(CommonSetUp, ThreeReflectorsNearlyAcrossTheAxisHaveAnotherSide) {
     EXPECT_TRUE(has_other_side(search.observed(), fit_within_reach(search.observed())));
 }
 
+// From the mirror image of the truth back to the truth.
+TEST(CommonSetUp, OtherSideOfAFalseTableIsTheRightOne) {
+    const synthetic::Campaign campaign = three_reflectors(0.008);
+    const PlaceSearch search(campaign.measurement);
+    const CommonFit within = fit_within_reach(search.observed());
+    const CommonFit other = fit_on_other_side(search.observed(), within, true);
+    const CommonFit back = fit_on_other_side(search.observed(), other, true);
+    for (std::size_t j = 0; j < 6; ++j) {
+        EXPECT_GT((other.stations[j].position - within.stations[j].position).norm(), 0.1) << j;
+        EXPECT_LT((back.stations[j].position - within.stations[j].position).norm(), 1e-3) << j;
+    }
+}
+
 TEST(CommonSetUp, NobodyHasTheOtherSideOfAnInclinedPlaneAndAFixtureInSpaceHasNone) {
     const synthetic::Campaign inclined = three_reflectors(0.05);
     EXPECT_FALSE(has_mirrored_table(PlaceSearch(inclined.measurement).observed(), Eigen::Vector4d::Zero()));
