@@ -78,6 +78,24 @@ bool is_concentrated(const RotaryTableMeasurement& measurement, const std::vecto
     });
 }
 
+/// The distance that fits worst is left out, one after the other: of few distances more than unknowns this can go on until nothing
+/// is left that could object, and what remains agrees with itself whichever distances are the wrong ones.
+void require_rest_that_can_object(std::size_t left_out, Eigen::Index degrees_of_freedom, std::size_t lengths) {
+    if (static_cast<Eigen::Index>(left_out) <= degrees_of_freedom) {
+        return;
+    }
+    throw gum::NoResultError(gum::Diagnostic{
+        "GC-ADJUST-0017", "outlying distances",
+        std::to_string(left_out) + " of " + std::to_string(lengths) + " distances left out, with " +
+            text::degrees_of_freedom(std::to_string(degrees_of_freedom)) + " that remain" +
+            (degrees_of_freedom == 1 ? "s" : ""),
+        "at least as many degrees of freedom as distances that are left out must remain: with fewer, another choice "
+        "of distances agrees as well",
+        "measure more stations, reflectors or passes, or look for the cause of the deviations and correct the "
+        "distances",
+        gum::Severity::error});
+}
+
 /// Kept in, they would carry the solution away from every other distance.
 [[noreturn]] void refuse_gross_errors(const RotaryTableMeasurement& measurement,
                                       const std::vector<std::size_t>& gross) {
@@ -1102,6 +1120,7 @@ Adjusted adjust_and_test(const RotaryTableMeasurement& measurement, StartSearch&
     }
 
     RotaryTableSolution solution;
+    solution.reliability = std::move(rows);
     const NormalEquations& normal = *iteration.normal;
     const BorderedCovariance& covariance = iteration.covariance;
     solution.datum = transform_to_datum(measurement, adjustment.poses(), adjustment.set_up(), measurement.datum);
@@ -1157,13 +1176,15 @@ Adjusted adjust_and_test(const RotaryTableMeasurement& measurement, StartSearch&
     solution.observations = normal.observation_count();
     solution.parameters = normal.parameter_count();
     solution.degrees_of_freedom = solution.observations - solution.parameters;
+    require_rest_that_can_object(static_cast<std::size_t>(std::ranges::count_if(
+                                     solution.reliability, [](const DistanceReliability& row) { return row.removed; })),
+                                 solution.degrees_of_freedom, measurement.lengths.size());
     solution.iterations = iteration.iterations;
     solution.chi_square = normal.chi_square();
     solution.condition_number = normal.condition_number();
     solution.stochastic = stochastic;
     solution.components = iteration.step.components;
     solution.components[fixture_cmm].separable = iteration.fixture_separable;
-    solution.reliability = std::move(rows);
     const TestLimits fixture_limits = test_limits(options, solution.components[fixture_cmm]);
     solution.fixture_reliability = fixture_reliability(adjustment, normal, covariance, fixture_limits.non_centrality);
     solution.fixture_critical_value = fixture_limits.critical_value;
@@ -1320,11 +1341,11 @@ RotaryTableSolution evaluate_jointly(const RotaryTableMeasurement& measurement, 
         return adjust_with_reversal(measurement, start_search, options, progress);
     } catch (const gum::NoResultError& error) {
         // Wrong labels and an interrupted beam look like a station whose place is open, like one that fits no table, like
-        // an adjustment that goes astray, or like a table that nobody has.
+        // an adjustment that goes astray, like a table that nobody has, or like many outlying distances.
         if (std::ranges::any_of(error.diagnostics(), [](const gum::Diagnostic& problem) {
                 return problem.code == "GC-ADJUST-0005" || problem.code == "GC-ADJUST-0015" ||
-                       problem.code == "GC-ADJUST-0016" || problem.code == "GC-RANK-0001" ||
-                       problem.code == "GC-VARIANCE-0008";
+                       problem.code == "GC-ADJUST-0016" || problem.code == "GC-ADJUST-0017" ||
+                       problem.code == "GC-RANK-0001" || problem.code == "GC-VARIANCE-0008";
             })) {
             start_search.refuse_wrong_labels();
             start_search.refuse_interrupted_beams();
