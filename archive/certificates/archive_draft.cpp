@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "archive/certificates/report_changes.h"
 #include "archive/head.h"
 #include "archive/names.h"
 #include "archive/printed_head.h"
@@ -17,7 +18,6 @@
 #include "encoding/sha2.h"
 #include "evaluation/read_file.h"
 #include "evaluation/recompute_record.h"
-#include "evaluation/rerun_record.h"
 #include "imports/foreign_certificate.h"
 #include "issuing/document_identity.h"
 #include "outputs/output_set.h"
@@ -34,7 +34,6 @@
 #include "reports/forms/render.h"
 #include "reports/printable_text.h"
 #include "reports/record/make/certificate/amended_record.h"
-#include "reports/record/record_value.h"
 #include "signing/verify.h"
 #include "text/lists.h"
 #include "text/visible_text.h"
@@ -579,30 +578,6 @@ std::string sha256_of_compared(const reports::EvaluationRecord& record, const ce
     return file == record.job_files.end() ? "" : file->sha256;
 }
 
-/// What the report of a comparison states otherwise than an earlier one: texts, verdicts and numbers as they are printed. Left out
-/// are number, date of issue and the amendment itself, which always differ.
-std::vector<certificate::Change> changes_of_report(const reports::EvaluationRecord& earlier,
-                                                   const reports::EvaluationRecord& later) {
-    evaluation::RerunRecord found;
-    evaluation::tell_changes(reports::to_json_value(earlier), reports::to_json_value(later), found);
-    std::vector<certificate::Change> changes;
-    for (evaluation::RecordChange& change : found.changes) {
-        const std::string_view place = change.place;
-        const bool is_of_report =
-            place.starts_with("/comparison/") || place.starts_with("/title") || place == "/coverage_probability";
-        const bool differs_always = place == "/comparison/issuer/number" || place == "/comparison/issuer/issued" ||
-                                    place.starts_with("/comparison/issuer/amendment");
-        if (is_of_report && !differs_always && change.kind != evaluation::ChangeKind::number) {
-            const bool is_text = change.kind == evaluation::ChangeKind::other;
-            changes.push_back({.kind = is_text ? "text" : word_of(change.kind),
-                               .where = std::move(change.place),
-                               .before = std::move(change.before),
-                               .after = std::move(change.now)});
-        }
-    }
-    return changes;
-}
-
 }  // namespace
 
 certificate::CertificateData stated_identity(const reports::EvaluationRecord& record) {
@@ -721,7 +696,8 @@ void state_amendment(CheckedDraft& amendment, const std::string& original) {
     }
     if (amendment.draft.amends->changes.empty()) {
         refuse("differs from \"" + stated.number + "\" in nothing that is compared: " +
-                   (is_report ? "in no text, verdict and printed number of the report"
+                   (is_report ? "in no text, verdict and number of the report; messages, files, and names that are "
+                                "confidential, are not compared"
                               : "not in texts of the certificate data, and not in what its tables of "
                                 "results show; the order of rows, and annexes, are not compared"),
                "an amendment changes something", "change what is to be amended, or do not amend it");
