@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "gum/quantity/diagnostic.h"
+#include "reports/record/record_kinds.h"
 
 namespace gumcert::issuing {
 
@@ -42,8 +43,11 @@ void supersede(reports::EvaluationRecord& record, const reports::EvaluationRecor
                                               .action = std::move(action)});
     };
     if (!record.certificate) {
-        refuse(where, "a record without certificate data", "a certificate is superseded by another one",
-               "leave --superseded-by out");
+        // An amended report has certificate data in its job, and still no page that says what became of it.
+        refuse(where,
+               record.kind == reports::k_comparison_kind ? "the report of a comparison"
+                                                         : "a record without certificate data",
+               "a certificate is superseded by another one", "leave --superseded-by out");
     }
     const std::string& number = record.certificate->data.number;
     if (!later.certificate || !later.certificate->data.amendment) {
