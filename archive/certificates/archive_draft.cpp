@@ -684,11 +684,6 @@ void state_amendment(CheckedDraft& amendment, const std::string& original) {
                "certificates amend certificates, and reports of comparisons such reports",
                "correct the number of the original, or add it under a number of its own");
     }
-    if (is_report && (stated.reason.empty() || stated.changes.empty())) {
-        refuse(stated.reason.empty() ? "states no reason" : "does not state what has changed",
-               "an amended report says what has changed, and why (ISO/IEC 17025:2017, 7.8.8.1)",
-               "state \"reason\" and \"changes\" of the amendment in the certificate data of the job");
-    }
     amendment.draft.amends = Draft::Amends{.number = stated.number, .kind = stated.kind, .changes = {}};
     for (const certificate::Change& change : is_report ? changes_of_report(earlier, amendment.record)
                                                        : reports::changes_between(earlier, amendment.record)) {

@@ -68,6 +68,8 @@ inline constexpr InputCode k_compared_job{"GC-INPUT-0541", "a job that cannot be
 inline constexpr InputCode k_unit_of_value{"GC-INPUT-0542", "a value in another unit than the comparison takes it in"};
 inline constexpr InputCode k_reason_of_nothing{"GC-INPUT-0543", "a reason beside a value that is scored"};
 inline constexpr InputCode k_column_in_capitals{"GC-INPUT-0544", "a column that is known in other letters"};
+inline constexpr InputCode k_incomplete_amendment{
+    "GC-INPUT-0545", "an amended report that does not say of what, why, or what has changed"};
 
 // Warnings: the input is accepted, and a person should look at it.
 inline constexpr InputCode k_warn_no_result{"GC-WARN-0020", "a participant without a single result"};
@@ -124,6 +126,7 @@ inline constexpr std::array k_comparison_codes{k_comparison_form,
                                                k_unit_of_value,
                                                k_reason_of_nothing,
                                                k_column_in_capitals,
+                                               k_incomplete_amendment,
                                                k_warn_no_result,
                                                k_warn_unusual_coverage_factor,
                                                k_warn_exact_assigned_value,

@@ -4,6 +4,8 @@
 #include <string_view>
 #include <utility>
 
+#include "certificate/stated_text.h"
+#include "certificate/text_words.h"
 #include "jobs/certificate/certificate_archive.h"
 #include "jobs/certificate/certificate_statement.h"
 #include "jobs/comparison/comparison_methods.h"
@@ -18,6 +20,35 @@
 namespace gumcert::jobs {
 
 namespace {
+
+/// An amended report says which one it amends or replaces, why, and what has changed (ISO/IEC 17025:2017, 7.8.8.1). Of certificates
+/// the gates before issue ask it; a report has none, and prints what is stated.
+void require_whole_amendment(const certificate::CertificateData& data, const std::string& where,
+                             ProblemList& problems) {
+    if (!data.amendment) {
+        return;
+    }
+    const certificate::Amendment& stated = *data.amendment;
+    const auto refuse = [&](std::string what, std::string action) {
+        problems.refuse(k_incomplete_amendment, where, std::move(what),
+                        "an amended report says which one it amends or replaces, why, and what has changed (ISO/IEC "
+                        "17025:2017, 7.8.8.1)",
+                        std::move(action));
+    };
+    if (!certificate::is_stated(stated.number)) {
+        refuse("the report that this one amends or replaces is not named",
+               "state its number in \"number\" of the amendment");
+    } else if (certificate::letters_of(stated.number) == certificate::letters_of(data.number)) {
+        refuse("the report has the number " + text::in_quotes(stated.number) + " of the one that it amends or replaces",
+               "give it a number of its own");
+    }
+    if (!certificate::is_stated(stated.reason)) {
+        refuse("no reason for the amendment is stated", "state \"reason\" of the amendment");
+    }
+    if (!certificate::any_stated(stated.changes)) {
+        refuse("what has changed is not stated", "state \"changes\" of the amendment, a list of texts");
+    }
+}
 
 /// Reads one job; every step notes what it finds, and `result` throws or returns at the end.
 class Reader {
@@ -67,6 +98,9 @@ private:
         }
         LaboratoryUse laboratory(files_, document, problems);
         job_.certificate = read_certificate(files_, document, problems, &laboratory);
+        if (job_.certificate) {
+            require_whole_amendment(*job_.certificate, document.where("/certificate/amendment"), problems);
+        }
     }
 
     /// A record that is taken for a job is refused as such, once, and not key by key.

@@ -294,12 +294,16 @@ TEST_F(ArchiveOfALaboratory, AmendsTheReportOfAComparison) {
     }
     EXPECT_TRUE(tells(brought_in("add", files), "use amend"));
     json& amendment = job["certificate"]["amendment"];
-    for (const char* const key : {"reason", "changes"}) {
-        const json stated = amendment[key];
-        amendment.erase(key);
-        EXPECT_TRUE(tells(brought_in("amend", made("silent")), "7.8.8.1")) << key;
+    const auto is_refused = [&](const char* key, const json& stated) {
+        const json before = amendment[key];
         amendment[key] = stated;
-    }
+        write_bytes(folder() / "silent.json", job.dump());
+        amendment[key] = before;
+        return tells(gumcert({"evaluate", path("silent.json"), "--share", GUMCERT_SOURCE_DIR}), "[GC-INPUT-0545]");
+    };
+    EXPECT_TRUE(is_refused("reason", ""));
+    EXPECT_TRUE(is_refused("changes", json::array()));
+    EXPECT_TRUE(is_refused("number", "CMP-2026-3/A1")) << "a report that replaces itself";
     const Ended amended = brought_in("amend", files);
     ASSERT_EQ(amended.code, 0) << amended.err;
     const json entry = shown({"show", "CMP-2026-3/A1"})["entries"][0]["body"];
@@ -324,7 +328,21 @@ TEST_F(ArchiveOfALaboratory, AmendsTheReportOfAComparison) {
     EXPECT_TRUE(tells(gumcert({"archive", "verify", evidence, "--share", GUMCERT_SOURCE_DIR}), "CMP-2026-3/A1"));
     EXPECT_EQ(verified_elsewhere({evidence}).code, 0);
 
+    EXPECT_TRUE(tells(gumcert({"render", path("first-record.json"), "--format", "text", "-o", "-", "--superseded-by",
+                               path("second-record.json"), "--share", GUMCERT_SOURCE_DIR}),
+                      "the report of a comparison"))
+        << "a report is not printed as superseded";
+
     // Another kind of document, and another record of the original.
+    change_certificate([](json& c) {
+        c["number"] = "EX-2026-0042";
+        c["amendment"] = {{"kind", "amended"},
+                          {"number", "CMP-2026-3/A1"},
+                          {"reason", "The serial number was written wrongly."},
+                          {"changes", {"serial number"}}};
+    });
+    evaluate("certificate");
+    EXPECT_TRUE(tells(archive(this->files("amend", "certificate"), "R. Lin"), "which is the report of a comparison"));
     job["certificate"]["number"] = "CMP-2026-3/A1/A1";
     job["certificate"]["amendment"]["number"] = "CMP-2026-3/A1";
     EXPECT_TRUE(tells(brought_in("amend", made("third")), "was compared with another record"));

@@ -36,6 +36,9 @@ std::string ab(const std::string& a, const std::string& b = R"("value": 2, "u": 
 std::string three(const std::string& more) {
     return k_three_laboratories + ", " + more;
 }
+std::string amending(const std::string& amendment) {
+    return three(R"("certificate": {"number": "CMP-1", "amendment": {"kind": "replaced", )" + amendment + "}}");
+}
 ComparisonFiles csv(const std::string& text) {
     return {{"r.csv", text}};
 }
@@ -248,6 +251,30 @@ std::vector<BadComparison> bad_of_results() {
          "r.csv:1:21", "\"Unit\""},
         {"contributes_in_capitals", k_csv, csv("participant,value,u,CONTRIBUTES\nA,10,1,yes\nB,11,1,no\n"),
          k_column_in_capitals, "r.csv:1:21", "\"contributes\" is"},
+        {"amends_itself",
+         amending(R"("number": "CMP 1", "reason": "Two digits were exchanged.", "changes": ["value of A"])"),
+         {},
+         k_incomplete_amendment,
+         "#/certificate/amendment",
+         "has the number \"CMP 1\""},
+        {"amends_nothing",
+         amending(R"("number": "-", "reason": "Two digits were exchanged.", "changes": ["value of A"])"),
+         {},
+         k_incomplete_amendment,
+         "#/certificate/amendment",
+         "is not named"},
+        {"amends_without_reason",
+         amending(R"("number": "CMP-0", "reason": "-", "changes": ["value of A"])"),
+         {},
+         k_incomplete_amendment,
+         "#/certificate/amendment",
+         "no reason"},
+        {"amends_without_changes",
+         amending(R"("number": "CMP-0", "reason": "Two digits were exchanged.")"),
+         {},
+         k_incomplete_amendment,
+         "#/certificate/amendment",
+         "what has changed is not stated"},
         {"U95", k_csv, csv("participant,value,U95\nA,10,1\nB,11,1\n"), k_bare_uncertainty, "r.csv:1:19", "\"U95\""},
         {"U_with_its_factor", k_csv, csv("participant,value,U (k=2)\nA,10,1\nB,11,1\n"), k_bare_uncertainty,
          "r.csv:1:19", "which uncertainty"},
