@@ -345,7 +345,7 @@ private:
     /// The statement names every entry that the log has of its certificates: one that was left out, or planted, shows.
     void look_at_states(const StateStatement& states) {
         if (!is_utc_time(states.at) || states.at < evidence_.head.at) {
-            add("GC-ARCHIVE-0056", "statement of states", "its time is before that of the head",
+            add("GC-ARCHIVE-0056", "statement of states", "its time is none, or before that of the head",
                 "a statement of states is made of the log that its head speaks of");
         }
         if (!evidence_.head.signature || evidence_.head.signature->public_key != states.signature.public_key) {

@@ -336,7 +336,7 @@ class Rules:
         if not names["actor"]:
             return "nobody is named"
         if not is_time(entry["at"]):
-            return "the time has another form"
+            return "the time is none, or has another form"
         if names["record"] and not DIGEST.fullmatch(names["record"]):
             return "the record is not named by its SHA-256"
         if self.created == (kind == "created"):
@@ -808,7 +808,7 @@ class States:
 
     def faults(self, head, lives, entries):
         if not is_time(self.at.encode()) or self.at.encode() < head.at:
-            yield "statement of states: its time is before that of the head"
+            yield "statement of states: its time is none, or before that of the head"
         if head.signature is None or head.signature[0] != self.signature[0]:
             yield "statement of states: is signed with another key than the head"
         for number, state, later, stated in self.certificates:
