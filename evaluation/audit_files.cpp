@@ -336,11 +336,13 @@ AuditedFile audited_as_it_is(const fs::path& file, unsigned threads, const fs::p
                      .audit;
             return audited;
         case Contents::record: {  // it says itself how long its evaluation takes
-            const auto look = [&] { subject = subject_of_record(bytes, file, threads, templates, progress); };
+            const auto look = [&](const gum::Progress& told) {
+                subject = subject_of_record(bytes, file, threads, templates, told);
+            };
             if (within) {
-                within(file, look);
+                within(file, progress, look);
             } else {
-                look();
+                look(progress);
             }
             break;
         }

@@ -72,8 +72,11 @@ struct AuditAttempt {
     std::exception_ptr failure;                    ///< what audit_file() threw, where it is not audited
 };
 
-/// Does some work of reading a file of others within walls, which may end the process.
-using WithinWalls = std::function<void(const std::filesystem::path& file, const std::function<void()>& work)>;
+/// Does some work of reading a file of others within walls. What it tells its progress to may end it alone, by a throw; a wall
+/// behind it may end the process.
+/// \param told  who is told of the progress of all files
+using WithinWalls = std::function<void(const std::filesystem::path& file, const gum::Progress& told,
+                                       const std::function<void(const gum::Progress&)>& work)>;
 
 /// audit_file() of each of them, in their order. Tables and workbooks are audited side by side, jobs and records one after
 /// the other, which use all threads themselves; results are the same for any number of threads. Of thousands of files only

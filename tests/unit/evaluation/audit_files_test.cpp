@@ -115,10 +115,10 @@ TEST(AuditFiles, EvaluateRecordsWithinWalls) {
     const std::vector<AuditAttempt> attempts = audit_files(
         files, 1, tree / "templates", [&](const std::string& text) { progress.push_back(is_within ? "+" : text); }, {},
         {},
-        [&](const fs::path& file, const std::function<void()>& work) {
+        [&](const fs::path& file, const gum::Progress& told, const std::function<void(const gum::Progress&)>& work) {
             within.push_back(file.filename().string());
             is_within = true;
-            work();
+            work(told);
             is_within = false;
         });
     EXPECT_EQ(within, std::vector<std::string>{"record.json"});
@@ -126,6 +126,18 @@ TEST(AuditFiles, EvaluateRecordsWithinWalls) {
         EXPECT_TRUE(attempt.view);
     }
     EXPECT_THAT(progress, ::testing::Contains("+")) << "it is evaluated there";
+    // A record that takes longer than it may ends alone: the others are audited.
+    const std::vector<AuditAttempt> ended = audit_files(
+        files, 1, tree / "templates", {}, {}, {},
+        [](const fs::path&, const gum::Progress&, const std::function<void(const gum::Progress&)>& work) {
+            work([](const std::string&) {
+                throw gum::StorageError(gum::Diagnostic{
+                    .code = "GC-STORE-0024", .where = "--time-limit", .what = "is used up", .rule = {}, .action = {}});
+            });
+        });
+    EXPECT_TRUE(ended[0].view);
+    EXPECT_TRUE(ended[1].failure);
+    EXPECT_TRUE(ended[2].view);
     fs::remove_all(all);
 }
 
