@@ -242,8 +242,9 @@ std::string rerun_text(std::span<const RerunRecord> records, std::size_t refused
                                       : "the same in every printed digit and verdict; changed: " + counts + "\n";
         add_changes(all, record);
     }
-    return all + "\n" + text::count_of(static_cast<std::int64_t>(records.size() + refused), "record") +
-           ", evaluated with version " + std::string(k_version) + " (commit " + std::string(k_commit) +
+    return all + (all.empty() ? "" : "\n") +
+           text::count_of(static_cast<std::int64_t>(records.size() + refused), "record") +
+           " named; evaluated with version " + std::string(k_version) + " (commit " + std::string(k_commit) +
            "): " + std::to_string(same) + " with the same printed digits and verdicts, " + std::to_string(changed) +
            " changed, " + std::to_string(not_evaluated) + " not evaluated\n";
 }

@@ -32,10 +32,10 @@ ExitCode rerun_records(const std::vector<std::string>& records, const std::strin
         code = std::max(code, one);
     }
     progress.clear();
-    if (!all.empty()) {
-        write_to_stdout(format == "json"  ? evaluation::rerun_json(all)
-                        : format == "csv" ? evaluation::rerun_csv(all)
-                                          : evaluation::rerun_text(all, records.size() - all.size()));
+    if (format != "json" && format != "csv") {
+        write_to_stdout(evaluation::rerun_text(all, records.size() - all.size()));
+    } else if (!all.empty()) {
+        write_to_stdout(format == "json" ? evaluation::rerun_json(all) : evaluation::rerun_csv(all));
     }
     return code;
 }

@@ -119,10 +119,12 @@ TEST(RerunRecord, IsCountedWhereItsProgressEndsIt) {
     EXPECT_TRUE(ended.is_negative());
     EXPECT_STREQ(ended.outcome(), "not_evaluated");
     EXPECT_EQ(ended.not_evaluated->where, "--time-limit");
-    EXPECT_NE(rerun_text({&ended, 1}).find("\n1 record, evaluated"), std::string::npos) << rerun_text({&ended, 1});
+    EXPECT_NE(rerun_text({&ended, 1}).find("\n1 record named; evaluated"), std::string::npos)
+        << rerun_text({&ended, 1});
     EXPECT_NE(rerun_text({&ended, 1}).find("0 changed, 1 not evaluated\n"), std::string::npos);
-    EXPECT_NE(rerun_text({&ended, 1}, 2).find("\n3 records, evaluated"), std::string::npos);
+    EXPECT_NE(rerun_text({&ended, 1}, 2).find("\n3 records named; evaluated"), std::string::npos);
     EXPECT_NE(rerun_text({&ended, 1}, 2).find("0 changed, 3 not evaluated\n"), std::string::npos);
+    EXPECT_TRUE(rerun_text({}, 1).starts_with("1 record named; evaluated")) << "none that can be read";
     EXPECT_FALSE(ended_by("GC-STORE-0001").was_ended()) << "any other trouble is one of the job";
 }
 
