@@ -259,6 +259,9 @@ public:
                 refuse_stated(measurement_, stations, there);
             }
         }
+        // Error motions decide first: those of a false place are no matter of some centimetres, as stated positions are. Whatever
+        // lies a decimetre farther from a stated position is not among the others (consider()); of two within it, and of all where
+        // none is stated, the one with far smaller error motions is taken, also between mirror images, at any number of distances.
         for (Other& other : others_) {
             if (fits_alike(other) && best_table().errors > k_far_larger * other.table.errors) {
                 take(other);
