@@ -46,7 +46,8 @@ json leaves_of(const reports::EvaluationRecord& record, bool names_may_be_told) 
 }
 
 /// Whether a report says what stands at a place of its record. Unrounded numbers are among it: it ends with a table of them.
-/// Messages and files are no statements of the comparison, and the audit stands in no report.
+/// Messages and files are no statements of the comparison, and the audit stands in no report. Titles are told in all languages:
+/// a document may be in another one than the record asks for.
 bool is_said(std::string_view place) {
     return place.starts_with("/comparison/") || place.starts_with("/title") || place == "/printed/coverage_probability";
 }

@@ -80,10 +80,6 @@ const std::vector<Mutation>& mutations() {
              j["certificate"]["languages"] = {"en", "de"};
          }},
         {"title", [](json& j) { j["title"] = "Comparison of rings"; }},
-        {"one more title",
-         [](json& j) {
-             j["title"] = {{"en", "Comparison of gauge blocks"}, {"de", "Vergleich"}};
-         }},
         {"coverage probability", [](json& j) { j["coverage_probability"] = 0.99; }},
         {"coverage probability, little", [](json& j) { j["coverage_probability"] = 0.9546; }},
         {"capability", [](json& j) { j["participants"][0]["cmc_U"] = 0.11; }},
