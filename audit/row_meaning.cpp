@@ -385,13 +385,9 @@ std::optional<double> degrees_of_freedom(const Pieces& pieces) {
     return std::nullopt;
 }
 
-/// Degrees of freedom behind the name of a distribution: "t (9)", "t, ν = 9", "Student's t (9)". The number in "t (2)" may be a
-/// factor, and that in "t (95 %)" is a probability.
-std::optional<double> degrees_of_freedom_of_t(const Pieces& pieces) {
-    if (const std::optional<double> nu = degrees_of_freedom(pieces)) {
-        return nu;
-    }
-    constexpr double k_fewest = 3.0, k_most = 1e6;
+/// The only number behind the name of the distribution t: 9 of "t (9)", "t, 9", "Student's t (9)". None that is said to be something
+/// else, as in "t (k = 3)" or "t (95 %)".
+std::optional<double> number_behind_t(const Pieces& pieces) {
     std::optional<double> only;
     for (std::size_t i = 0; i < pieces.size(); ++i) {
         const Piece& piece = pieces[i];
@@ -403,13 +399,38 @@ std::optional<double> degrees_of_freedom_of_t(const Pieces& pieces) {
             }
             continue;
         }
-        if (only || i == 0 || piece.percent || piece.plus_minus || !piece.unit.empty() || piece.value < k_fewest ||
-            piece.value > k_most || piece.value != std::floor(piece.value)) {
+        if (only || i == 0 || piece.percent || piece.plus_minus || !piece.unit.empty()) {
             return std::nullopt;
         }
         only = piece.value;
     }
     return only;
+}
+
+/// Whether a number may be what an expanded uncertainty is divided by: the divisor of the row, U over u, or k of a certificate, at
+/// most rounded to whole ones.
+bool may_be_divisor(double number, const AuditedRow& row) {
+    constexpr double k_half = 0.5;
+    const auto is_it = [number](double divisor) { return std::abs(divisor - number) < k_half; };
+    return (row.divisor && is_it(row.divisor->value)) || (row.certificate_k && is_it(*row.certificate_k)) ||
+           (row.stated && row.u && row.u->value > 0.0 && is_it(row.stated->value / row.u->value));
+}
+
+/// Degrees of freedom in the words of the distribution t: "t, ν = 9", "t (9)". A number by itself may be a factor, "t (3)" beside
+/// the divisor 3, or a probability, "t (95)": neither is read, and a small one of readings only, of which it is n − 1.
+std::optional<double> degrees_of_freedom_of_t(const AuditedRow& row) {
+    const Pieces pieces = pieces_of(row.shape_text, row.decimal_sign);
+    if (const std::optional<double> nu = degrees_of_freedom(pieces)) {
+        return nu;
+    }
+    constexpr double k_fewest = 3.0, k_no_factor = 5.0, k_most = 1e6;
+    constexpr std::array k_percent{68.0, 90.0, 95.0, 98.0, 99.0};
+    const std::optional<double> nu = number_behind_t(pieces);
+    const bool is_count = nu && *nu >= k_fewest && *nu <= k_most && *nu == std::floor(*nu) &&
+                          std::find(k_percent.begin(), k_percent.end(), *nu) == k_percent.end();
+    const bool is_of_readings = row.type_a.value_or(row.contributor == Contributor::repeatability ||
+                                                    row.contributor == Contributor::reproducibility);
+    return is_count && (*nu >= k_no_factor || is_of_readings) && !may_be_divisor(*nu, row) ? nu : std::nullopt;
 }
 
 /// "pooled s = 0.12 µm".
@@ -738,11 +759,6 @@ void read_comment(AuditedRow& row) {
             row.nu = exact_number(*nu, row.place);
         }
     }
-    if (!row.nu && row.shape == Shape::student_t) {
-        if (const std::optional<double> nu = degrees_of_freedom_of_t(pieces_of(row.shape_text, row.decimal_sign))) {
-            row.nu = exact_number(*nu, row.place);
-        }
-    }
     if (!row.type_a && row.origin != Origin::not_stated) {
         row.type_a = row.origin == Origin::readings;
     }
@@ -755,6 +771,11 @@ void read_comment(AuditedRow& row) {
     // Readings whose words say nothing else scatter as the instrument and the item do.
     if (row.contributor == Contributor::other && row.type_a == true) {
         row.contributor = Contributor::repeatability;
+    }
+    if (!row.nu && row.shape == Shape::student_t) {
+        if (const std::optional<double> nu = degrees_of_freedom_of_t(row)) {
+            row.nu = exact_number(*nu, row.place);
+        }
     }
 }
 

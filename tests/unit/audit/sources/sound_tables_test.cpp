@@ -267,6 +267,12 @@ TEST(SoundTables, StateDegreesOfFreedomInTheDistributionAndReadingsWithAnAdjecti
         EXPECT_TRUE(std::isinf(table(distribution, "Repeatability").subject.budgets.at(0).rows.at(1).used_nu))
             << distribution;
     }
+    for (const char* const distribution : {"t (90)", "t (95)", "t, 95", "Student's t (99)"}) {
+        EXPECT_TRUE(std::isinf(table(distribution, "Repeatability").subject.budgets.at(0).rows.at(1).used_nu))
+            << distribution;
+    }
+    EXPECT_EQ(table("t (4)", "Repeatability").subject.budgets.at(0).rows.at(1).used_nu, 4.0);
+    EXPECT_TRUE(std::isinf(table("t (4)", "Reference B").subject.budgets.at(0).rows.at(1).used_nu));
     for (const char* const name : {"Repeatability (5 equal readings)", "Wiederholbarkeit (5 gleiche Ablesungen)",
                                    "Repeatability of 5 independent measurements"}) {
         EXPECT_EQ(table("normal", name).subject.budgets.at(0).rows.at(1).n, 5U) << name;
@@ -314,6 +320,34 @@ TEST(SoundTables, AreHeadedBySourceAndStateUInTheUnitOfALength) {
         "Combined standard uncertainty,,,K,,,,,0.0144\nk,,,,,,,,2\nExpanded uncertainty,,,K,,,,,0.029\n");
     EXPECT_FALSE(has(blank, "U23"));
     EXPECT_EQ(blank.subject.budgets.at(0).rows.at(0).stated->value, 0.02);
+}
+
+/// U was divided by the number behind "t": it is a factor, and no ν, with which K02 would be critical.
+TEST(SoundTables, DivideByTheNumberBehindT) {
+    struct Case {
+        std::string divisor, number, name;
+    };
+    const std::vector<Case> cases = {{"3", "3", "Reference standard"}, {"4", "4", "Reference standard"},
+                                     {"5", "5", "Reference standard"}, {"2.87", "3", "Reference standard"},
+                                     {"3", "3", "Repeatability"},      {"4.30", "4", "Repeatability"}};
+    for (const Case& one : cases) {
+        for (const std::string& words : {"t (" + one.number + ")", "t(" + one.number + ")", "t, " + one.number}) {
+            for (const bool has_divisors : {true, false}) {
+                const auto cell = [&](const std::string& divisor) { return has_divisors ? divisor + "," : ""; };
+                const std::string stated = text::significant(0.01 * std::stod(one.divisor), 3);
+                std::string table =
+                    "quantity,unit,U or a," + cell("divisor") + "distribution,u,sensitivity,contribution\n";
+                table += one.name + ",V," + stated + "," + cell(one.divisor) + "\"" + words + "\",0.0100,1,0.0100\n";
+                table += "Seating,V,0.002," + cell("1") + "normal,0.002,1,0.002\n";
+                table += "Resolution,V,0.005," + cell("1.732") + "rectangular,0.00289,1,0.00289\n";
+                table += "u_c,V,0.0106\nk,,2\nU,V,0.021\n";
+                const AuditReport report = audited_text(table);
+                EXPECT_FALSE(report.has_critical()) << table << accusations(report);
+                EXPECT_FALSE(has(report, "K02")) << table;
+                EXPECT_TRUE(std::isinf(report.subject.budgets.at(0).rows.at(0).used_nu)) << table;
+            }
+        }
+    }
 }
 
 }  // namespace
