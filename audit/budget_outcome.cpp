@@ -294,15 +294,14 @@ bool is_rounded_as_stated(const AuditedBudget& budget, const UncorrectedU& befor
                                             : before.stated <= U && U <= before.evaluated + 0.5 * step;
 }
 
-/// Whether U is no other number than what is stated, at the last digit of that: 0.02 is stated where the rows give 0.0234, and
-/// 0.022 is no change of it. What is stated may have been rounded up.
-bool is_within_statement(const UncorrectedU& before, double U) {
+/// Whether U is no other number than what is stated: 0.02 is stated where the rows give 0.0234, and 0.022, which lies between, is no
+/// change of either. Beyond both a U of one digit is held against as many digits as the budget has: 1.35 is not the 1 that is stated.
+bool is_within_statement(const AuditedBudget& budget, const UncorrectedU& before, double U) {
     constexpr double k_half = 0.5 * (1.0 + 1e-9);
-    const double below =
-        before.stated - (before.evaluated < before.stated - k_half * before.step ? 1.0 : k_half) * before.step;
+    const double step = std::min(before.step, step_of_digits(before.stated, budget.digits));
     const bool is_between =
         std::min(before.stated, before.evaluated) <= U && U <= std::max(before.stated, before.evaluated);
-    return is_between || (before.step > 0.0 && below <= U && U <= before.stated + k_half * before.step);
+    return is_between || std::abs(U - before.stated) <= k_half * step;
 }
 
 /// Significant digits of a corrected U: those of the budget, or to the last place of the U that is stated, which would else be
@@ -321,7 +320,7 @@ void print(const AuditedBudget& budget, BudgetOutcome& outcome) {
     const UncorrectedU* before = budget.uncorrected_U ? &*budget.uncorrected_U : nullptr;
     const bool has_text = before != nullptr && !before->text.empty();
     const bool is_stated = has_text && (std::abs(outcome.U / before->evaluated - 1.0) < k_unchanged ||
-                                        is_within_statement(*before, outcome.U));
+                                        is_within_statement(budget, *before, outcome.U));
     const bool is_as_stated =
         before != nullptr &&
         (is_rounded_as_stated(budget, *before, outcome.U) ||
