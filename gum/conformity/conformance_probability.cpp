@@ -16,6 +16,7 @@ namespace gumcert::gum {
 namespace {
 
 constexpr double k_negligible_tail = 1e-17;  // against the other tail
+constexpr double k_no_chance = 1e-3;         // one trial, or a few, may fall on or beside a limit
 constexpr int k_scan = 64;                   // values tried for a distribution that is not known to have one peak
 
 /// The side of a root on which a function is to be, where it jumps over 0.
@@ -181,6 +182,30 @@ double distribution_function(const MeasuredValue& y, double x) {
 double probability_below(const MeasuredValue& y, double x) {
     require_measured_value(y);
     return Dispersion(y).under(x - y.value);
+}
+
+bool has_probability_of_its_own(const MeasuredValue& y, double x) {
+    return y.distribution && y.distribution_below && y.distribution(x) - y.distribution_below(x) > k_no_chance;
+}
+
+ToleranceLimits limits_that_can_be_passed(const MeasuredValue& y, const ToleranceLimits& limits) {
+    if (!y.distribution) {
+        return limits;
+    }
+    constexpr double k_near = 0.1;  // [u]
+    const double step = k_near * y.standard_uncertainty;
+    const auto under = [&y](double x) { return y.distribution_below ? y.distribution_below(x) : y.distribution(x); };
+    const auto may_bound = [&y](double x) { return x == 0.0 || has_probability_of_its_own(y, x); };
+    ToleranceLimits passable = limits;
+    if (const std::optional<double> x = limits.lower;
+        x && may_bound(*x) && !(under(*x) > 0.0) && y.distribution(*x + step) > k_no_chance) {
+        passable.lower.reset();
+    }
+    if (const std::optional<double> x = limits.upper;
+        x && may_bound(*x) && !(y.distribution(*x) < 1.0) && 1.0 - under(*x - step) > k_no_chance) {
+        passable.upper.reset();
+    }
+    return passable;
 }
 
 double nonconformance_probability_at(double value, const MeasuredValue& y, const ToleranceLimits& limits) {

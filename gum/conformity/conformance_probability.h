@@ -32,6 +32,14 @@ void require_measured_value(const MeasuredValue& y);
 /// P(Y < x): less than P(Y ≤ x) by the probability of x itself. A limit belongs to the tolerance.
 [[nodiscard]] double probability_below(const MeasuredValue& y, double x);
 
+/// Whether a value has a probability of its own, as 0 of max(x, 0), and not by the chance of one trial.
+[[nodiscard]] bool has_probability_of_its_own(const MeasuredValue& y, double x);
+
+/// The limits without those that the quantity itself cannot pass: its distribution goes up to such a bound and not beyond, and
+/// the bound has a probability of its own or is the 0 of an amount. Another value has no such distribution moved. Where hardly
+/// anything lies within 0.1 u of the limit, nothing beyond it is the chance of the trials, and no bound.
+[[nodiscard]] ToleranceLimits limits_that_can_be_passed(const MeasuredValue& y, const ToleranceLimits& limits);
+
 /// p_c = P(T_L ≤ Y ≤ T_U)                                                        (JCGM 106:2012, 7.1 and 7.2)
 /// \throws InputError  GC-GUM-0080 limits, GC-GUM-0081 measured value
 /// Accuracy: relative error below 1e-11, also far out in a tail (docs/accuracy.md#conformity-and-global-risk).

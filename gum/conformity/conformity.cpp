@@ -40,12 +40,11 @@ public:
           p_(parameters),
           limits_(limits),
           y_(y),
-          limits_that_can_be_passed_(limits),
+          passable_(limits_that_can_be_passed(y, limits)),
+          is_bounded_(limits.lower.has_value() != passable_.lower.has_value() ||
+                      limits.upper.has_value() != passable_.upper.has_value()),
           population_(stated_population(parameters, limits)) {
         decision_.rule = rule;
-        const bool is_lower_bounded = bounded(limits_that_can_be_passed_.lower, true),
-                   is_upper_bounded = bounded(limits_that_can_be_passed_.upper, false);
-        is_bounded_ = is_lower_bounded || is_upper_bounded;
         if (limits.two_sided()) {
             half_ = 0.5 * (*limits.upper - *limits.lower);
             decision_.test_uncertainty_ratio = half_ / y.expanded_uncertainty;
@@ -58,7 +57,6 @@ public:
     [[nodiscard]] bool applies() const { return reason_.empty(); }
 
 private:
-    [[nodiscard]] bool bounded(std::optional<double>& limit, bool is_lower) const;
     void set_zones();
     void z540_3();
     void posterior();
@@ -95,8 +93,8 @@ private:
     const DecisionRuleParameters& p_;
     const ToleranceLimits& limits_;
     const MeasuredValue& y_;
-    ToleranceLimits limits_that_can_be_passed_;  ///< without one that is a bound of the quantity itself
-    bool is_bounded_ = false;                    ///< one of the limits is
+    ToleranceLimits passable_;  ///< without one that is a bound of the quantity itself
+    bool is_bounded_ = false;   ///< one of the limits is
     std::optional<Population> population_;
     double half_ = 0.0;  // T, two-sided limits only
     Zones zones_ = Zones::two;
@@ -153,25 +151,6 @@ std::string Application::in_tolerance() const {
     return limits_.lower ? "P(Y ≥ TL)" : "P(Y ≤ TU)";
 }
 
-/// Takes a limit away that the quantity itself cannot pass: its distribution goes up to it and not beyond, and the limit has a
-/// probability of its own, as that of max(x, 0), or is the 0 of an amount. The distribution is not that of another value moved.
-bool Application::bounded(std::optional<double>& limit, bool is_lower) const {
-    constexpr double k_no_chance = 1e-3;  // of an atom; one trial may fall on a limit
-    constexpr double k_near = 0.1;        // [u]
-    if (!limit || !y_.distribution) {
-        return false;
-    }
-    const double x = *limit, step = k_near * y_.standard_uncertainty;
-    const double beyond = is_lower ? probability_below(y_, x) : 1.0 - distribution_function(y_, x);
-    const double near = is_lower ? distribution_function(y_, x + step) : 1.0 - probability_below(y_, x - step);
-    const double at = distribution_function(y_, x) - probability_below(y_, x);
-    if (beyond > 0.0 || !(near > 0.0) || (at <= k_no_chance && x != 0.0)) {
-        return false;
-    }
-    limit.reset();
-    return true;
-}
-
 void Application::cannot(std::string why) {
     if (reason_.empty()) {
         reason_ = std::move(why);
@@ -217,14 +196,13 @@ void Application::solve_risk(double risk) {
     largest_risk_ = risk;
     // The guard band is what lies between the tolerance limit and the acceptance limit; where both sides differ,
     // because the distribution is not symmetric, the larger one is stated. Without limits no value has so small a risk.
-    const ToleranceLimits& possible = limits_that_can_be_passed_;
-    if (!possible.lower && !possible.upper) {
+    if (!passable_.lower && !passable_.upper) {
         decision_.acceptance = limits_;
         return;
     }
-    if (auto solved = acceptance_limits_for_risk(y_, possible, risk)) {
-        solved->lower = limits_.lower && !possible.lower ? limits_.lower : solved->lower;
-        solved->upper = limits_.upper && !possible.upper ? limits_.upper : solved->upper;
+    if (auto solved = acceptance_limits_for_risk(y_, passable_, risk)) {
+        solved->lower = limits_.lower && !passable_.lower ? limits_.lower : solved->lower;
+        solved->upper = limits_.upper && !passable_.upper ? limits_.upper : solved->upper;
         decision_.acceptance = *solved;
         decision_.guard_band =
             std::max(limits_.lower ? *solved->lower - *limits_.lower : -std::numeric_limits<double>::infinity(),

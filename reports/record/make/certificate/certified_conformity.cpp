@@ -10,7 +10,9 @@
 
 #include "certificate/agreed_rule.h"
 #include "certificate/statement_of_uncertainty.h"
+#include "gum/conformity/conformance_probability.h"
 #include "gum/conformity/conformity.h"
+#include "gum/conformity/tolerance_limits.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/rounding.h"
 #include "text/numbers.h"
@@ -40,16 +42,14 @@ std::optional<double> half_width(std::optional<double> U, double y, std::optiona
     return low && high ? std::optional(std::max(y - *low, *high - y)) : std::nullopt;
 }
 
-/// Whether a limit is a value that the quantity takes with a probability of its own, not by the chance of one trial, or the 0 of an
-/// amount, up to which it goes.
-bool has_bound_at(const KnownDistribution& known, const gum::ToleranceLimits& limits, double u) {
-    constexpr double k_no_chance = 1e-3, k_near = 0.1;
-    const auto at = [&](const std::optional<double>& limit) {
-        return limit && known.below && known.function(*limit) - known.below(*limit) > k_no_chance;
+/// Whether a limit is a value that the quantity takes with a probability of its own, or one that it cannot pass.
+bool has_bound_at(const gum::MeasuredValue& y, const gum::ToleranceLimits& limits) {
+    const auto has_own = [&y](const std::optional<double>& limit) {
+        return limit && gum::has_probability_of_its_own(y, *limit);
     };
-    const bool is_amount =
-        limits.lower == 0.0 && known.below && !(known.below(0.0) > 0.0) && known.function(k_near * u) > 0.0;
-    return at(limits.lower) || at(limits.upper) || is_amount;
+    const gum::ToleranceLimits passable = gum::limits_that_can_be_passed(y, limits);
+    return has_own(limits.lower) || has_own(limits.upper) || passable.lower != limits.lower ||
+           passable.upper != limits.upper;
 }
 
 std::optional<DecisionNumbers> numbers_of(const CertifiedValue& from, const KnownDistribution& known,
@@ -98,7 +98,7 @@ std::optional<DecisionNumbers> numbers_of(const CertifiedValue& from, const Know
         };
         place(out.unrounded, !out.raised, out.unrounded.expanded_uncertainty);
         // A limit that the quantity itself cannot pass stays where it is when y is rounded.
-        place(out.printed, !out.raised && has_bound_at(known, limits, *U / k), *U_printed);
+        place(out.printed, !out.raised && has_bound_at(out.unrounded, limits), *U_printed);
     }
     return out;
 }

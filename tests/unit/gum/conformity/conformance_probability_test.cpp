@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -39,6 +40,60 @@ MeasuredValue of(const Distribution& distribution) {
             .standard_uncertainty = u,
             .expanded_uncertainty = 2.0 * u,
             .distribution = [distribution](double x) { return lower_tail_probability(distribution, x); }};
+}
+
+/// A value, whose distribution is cut at 0: what would be below has no probability, or is 0 itself.
+MeasuredValue cut_at_0(double value, bool with_atom, bool above = false) {
+    const auto shape = [value, with_atom](double x, bool with) {
+        const double below = lower_tail_probability(Distribution::normal(value, 1.0), with_atom ? x : 0.0);
+        const double all = 1.0 - below;
+        if (with_atom) {
+            return x < 0.0 || (x == 0.0 && !with) ? 0.0 : below;
+        }
+        return x <= 0.0 ? 0.0 : (lower_tail_probability(Distribution::normal(value, 1.0), x) - below) / all;
+    };
+    MeasuredValue y = normal(above ? -value : value, 1.0);
+    y.distribution = [=](double x) { return above ? 1.0 - shape(-x, false) : shape(x, true); };
+    y.distribution_below = [=](double x) { return above ? 1.0 - shape(-x, true) : shape(x, false); };
+    return y;
+}
+
+using BothLimits = std::pair<std::optional<double>, std::optional<double>>;
+BothLimits both(const ToleranceLimits& limits) {
+    return {limits.lower, limits.upper};
+}
+BothLimits passable(const MeasuredValue& y, const ToleranceLimits& limits) {
+    return both(limits_that_can_be_passed(y, limits));
+}
+
+TEST(LimitsThatCanBePassed, AreThoseBeyondWhichTheQuantityCanBe) {
+    for (const bool with_atom : {true, false}) {
+        const MeasuredValue y = cut_at_0(0.5, with_atom);
+        EXPECT_EQ(passable(y, {.lower = 0.0, .upper = 3.0}), both({.upper = 3.0}));
+        for (const ToleranceLimits& all : {ToleranceLimits{.lower = 0.4, .upper = 3.0}, ToleranceLimits{.lower = -1.0},
+                                           ToleranceLimits{.upper = 0.0}}) {
+            EXPECT_EQ(passable(y, all), both(all));
+        }
+        const MeasuredValue negative = cut_at_0(0.5, with_atom, true);
+        EXPECT_EQ(passable(negative, {.lower = -3.0, .upper = 0.0}), both({.lower = -3.0}));
+        EXPECT_EQ(passable(negative, {.lower = 0.0}), both({.lower = 0.0}));
+    }
+    // Far from 0 only the chance of the trials keeps all of them above it, and lets one fall beside it.
+    for (const double far : {4.2, 4.5, 5.0}) {
+        const ToleranceLimits limits{.lower = 0.0, .upper = 20.0};
+        EXPECT_EQ(passable(cut_at_0(far, false), limits), both(limits));
+        EXPECT_EQ(passable(cut_at_0(far, true), limits), both(limits));
+    }
+    EXPECT_EQ(passable(normal(0.0, 1.0), {.lower = 0.0}), both({.lower = 0.0}));
+}
+
+TEST(HasProbabilityOfItsOwn, IsThatOfASingleValue) {
+    EXPECT_TRUE(has_probability_of_its_own(cut_at_0(0.5, true), 0.0));
+    EXPECT_TRUE(has_probability_of_its_own(cut_at_0(0.5, true, true), 0.0));
+    EXPECT_FALSE(has_probability_of_its_own(cut_at_0(0.5, true), 0.5));
+    EXPECT_FALSE(has_probability_of_its_own(cut_at_0(0.5, false), 0.0));
+    EXPECT_FALSE(has_probability_of_its_own(cut_at_0(4.5, true), 0.0));
+    EXPECT_FALSE(has_probability_of_its_own(normal(0.0, 1.0), 0.0));
 }
 
 TEST(ConformanceProbability, NormalTwoSided) {

@@ -845,6 +845,26 @@ TEST(DecideConformity, ALimitThatTheQuantityCannotPassIsNoRiskOfAnotherValue) {
     }
 }
 
+/// 0 is 4.2 u away: that no trial falls below it is chance, and no bound that would be the limit of acceptance itself.
+TEST(DecideConformity, ALimitFarFromTheTrialsIsNoBound) {
+    const auto normal = [](double x) { return 0.5 * std::erfc(-x / std::sqrt(2.0)); };
+    for (const double value : {4.2, 4.5, 4.7, 5.1}) {
+        const auto shape = [=](double x) { return x < 0.0 ? 0.0 : normal(x - value); };
+        const MeasuredValue y{.value = value,
+                              .standard_uncertainty = 1.0,
+                              .expanded_uncertainty = 2.0,
+                              .distribution = shape,
+                              .distribution_below = [=](double x) { return x <= 0.0 ? 0.0 : shape(x); },
+                              .trials = 1e5};
+        const ToleranceLimits limits{.lower = 0.0, .upper = 20.0};
+        const ConformityDecision by_risk =
+            decide_conformity(DecisionRule::specific_risk, {.probability = 0.05}, limits, y);
+        EXPECT_NEAR(by_risk.acceptance.lower.value(), 1.645, 1e-3) << value;
+        const ConformityDecision simple = decide_conformity(DecisionRule::simple_acceptance, {}, limits, y);
+        EXPECT_NEAR(simple.largest_specific_risk.value_or(0.0), 0.5, 1e-3) << value;
+    }
+}
+
 TEST(DecideConformity, RefusesLimitsValuesAndRules) {
     const auto code = [](DecisionRule rule, const Parameters& parameters, const ToleranceLimits& limits,
                          const MeasuredValue& y) {
