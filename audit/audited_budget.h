@@ -287,6 +287,8 @@ struct AuditedBudget {
     std::vector<std::string> unread_cells = {};
     /// Correlation coefficients that it states, and nobody knows of which rows.
     std::vector<double> unread_correlations = {};
+    /// The same of an r in a line of words, of which nobody knows whether it is that of two rows: it may explain a claim.
+    std::vector<double> noted_correlations = {};
     std::optional<double> physical_minimum;  ///< no value of the quantity lies below: 0 of a form error
 };
 

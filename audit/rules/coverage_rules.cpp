@@ -87,8 +87,17 @@ void contribution_not_reproducible(const AuditSubject& subject, FindingCollector
 
 /// A correlation that is stated without its rows, and two rows of which it explains the claimed u_c, or the claimed U.
 std::optional<RowCorrelation> explaining_correlation(const AuditedBudget& budget) {
-    constexpr std::size_t k_most_rows = 40;
-    for (const double r : budget.unread_correlations) {
+    constexpr std::size_t k_most_rows = 40, k_most_correlations = 8;
+    // Each once, for each is tried with all pairs of rows: a thousand notes would take half a minute.
+    std::vector<double> tried;
+    for (const std::vector<double>* const list : {&budget.unread_correlations, &budget.noted_correlations}) {
+        for (const double r : *list) {
+            if (tried.size() < k_most_correlations && std::find(tried.begin(), tried.end(), r) == tried.end()) {
+                tried.push_back(r);
+            }
+        }
+    }
+    for (const double r : tried) {
         for (std::size_t i = 0; i < std::min(budget.rows.size(), k_most_rows); ++i) {
             for (std::size_t j = i + 1; j < std::min(budget.rows.size(), k_most_rows); ++j) {
                 AuditedBudget with = budget;
@@ -196,6 +205,11 @@ void linear_sum(const AuditSubject& subject, FindingCollector& findings) {
         finding.evidence = {say("the root of the sum of squares is {u_c}", range_in_words(check.u_c, budget.unit))};
         finding.expected = range_in_words(check.u_c, budget.unit);
         finding.actual = say_number(claimed_in_words(*budget.claims.u_c, budget.unit));
+        // Of rows that are correlated with r = 1 the plain sum is right (JCGM 100:2008, 5.2.2).
+        if (const std::optional<RowCorrelation> pair = explaining_correlation(budget)) {
+            add_as_question(budget, *pair, std::move(finding), findings);
+            continue;
+        }
         finding.correct = k_trust_rows;
         findings.add(std::move(finding));
     }

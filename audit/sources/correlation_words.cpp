@@ -6,6 +6,7 @@
 
 #include "audit/sources/table_units.h"
 #include "audit/stated_number.h"
+#include "audit/word_line.h"
 #include "gum/quantity/unit.h"
 #include "text/small_letters.h"
 
@@ -137,6 +138,21 @@ std::vector<std::pair<std::string, std::string>> pairs_in(std::string_view name)
 
 std::optional<double> stated_correlation(std::string_view text) {
     return assigned_r(text);
+}
+
+NotedCorrelation noted_correlation(std::string_view note) {
+    const WordLine words(note);
+    if (words.has_any({"together", "jointly", "in common", "correlated", "gemeinsam", "zusammen", "korreliert",
+                       "parameter", "conjunt", "juntos", "juntas"}) ||
+        note.find("一起") != std::string_view::npos || note.find("共同") != std::string_view::npos) {
+        return NotedCorrelation::of_rows;
+    }
+    const bool is_of_fit = words.has_any(
+        {"regres",  "*regression", "fit ",   "fits ",     "fitted",  "fitting", "line ",     "lines ", "linear",
+         "curve",   "kurve",       "*kurve", "kennlinie", "gerade ", "*gerade", "ausgleich", "drift",  "trend",
+         "polynom", "interpol",    "slope",  "steigung",  "ajuste",  "recta ",  "droite ",   "r2 "});
+    constexpr std::string_view k_other[] = {"r²", "R²", "回歸", "迴歸", "回归", "擬合", "拟合", "漂移"};
+    return is_of_fit || has_one_of(note, k_other) ? NotedCorrelation::of_fit : NotedCorrelation::open;
 }
 
 std::optional<CorrelationWords> correlation_words(std::string_view name) {

@@ -19,6 +19,13 @@ struct CorrelationWords {
 };
 /// A coefficient that a text states by its symbol: 0.9 of "r = 0.9" or "calibrated together, ρ(A; B) = 0.9".
 [[nodiscard]] std::optional<double> stated_correlation(std::string_view text);
+/// What the r of a note may belong to, by its words.
+enum class NotedCorrelation {
+    of_rows,  ///< "A and B were calibrated together, r = 0.9"
+    of_fit,   ///< of a regression, which is no correlation of two contributions: "Drift line: r = 0.98"
+    open,
+};
+[[nodiscard]] NotedCorrelation noted_correlation(std::string_view note);
 /// Nothing where the name says nothing of a correlation.
 [[nodiscard]] std::optional<CorrelationWords> correlation_words(std::string_view name);
 

@@ -661,9 +661,12 @@ private:
         const std::optional<CorrelationWords> words = correlation_words(name);
         const NumbersUnderHeads numbers = numbers_under(sheet_, *heads_, row);
         if (!words && numbers.empty() && name.find(' ') != std::string::npos) {
-            // A note. "r = 0.9" in it may be of two rows, or of a regression: it is no correlation of the sum, and asked where it would explain it.
-            if (const std::optional<double> r = stated_correlation(name); r && *r != 0.0) {
-                budget_.unread_correlations.push_back(*r);
+            // A note. "r = 0.9" in it is no correlation of the sum, and asked where it would explain it, unless it is of a regression.
+            const NotedCorrelation of = noted_correlation(name);
+            if (const std::optional<double> r = stated_correlation(name);
+                r && *r != 0.0 && of != NotedCorrelation::of_fit) {
+                (of == NotedCorrelation::of_rows ? budget_.unread_correlations : budget_.noted_correlations)
+                    .push_back(*r);
             }
             return false;
         }

@@ -92,6 +92,74 @@ TEST(Correlations, LeaveTheDegreesOfFreedomOfOneContribution) {
     EXPECT_FALSE(fixed_k(""));
 }
 
+TEST(Correlations, InANoteAreOfRowsOrOfAFit) {
+    for (const char* const rows :
+         {"Note: A and B were calibrated together, r = 0.9", "A und B gemeinsam kalibriert: r = 0.9",
+          "Fit parameters a and b: r = -0.97", "A 與 B 一起校準 r = 0.9"}) {
+        EXPECT_EQ(noted_correlation(rows), NotedCorrelation::of_rows) << rows;
+    }
+    for (const char* const fit : {"Drift line: r = 0.98 over 6 years", "Linear fit of drift: r = 0.95",
+                                  "Note: the regression has r = 0.3", "Kalibrierkurve mit r = 0.999",
+                                  "Ausgleichsgerade r = 0.99", "Regresión lineal, r = 0.99", "線性迴歸 r = 0.99"}) {
+        EXPECT_EQ(noted_correlation(fit), NotedCorrelation::of_fit) << fit;
+    }
+    EXPECT_EQ(noted_correlation("Note: r = 0.9 of certificate 77-A, online"), NotedCorrelation::open);
+}
+
+/// The r of a regression is no correlation of two rows: it explains no u_c, and states none of one certificate.
+TEST(Correlations, OfAFitExplainNothing) {
+    const auto has = [](const AuditReport& report, const std::string& rule) {
+        return std::any_of(report.findings.begin(), report.findings.end(),
+                           [&](const AuditFinding& finding) { return finding.rule == rule; });
+    };
+    const std::string heads = "Quantity,Estimate,Unit,u,nu,Sensitivity,Contribution,Source\n",
+                      claims = "u_c,,um,0.030\nk,,,2\nU,,um,0.060\n";
+    const auto rows = [](const std::string& sign) {
+        return "Standard gauge A,0,um,0.02,50,1,0.02,certificate 77-A\nStandard gauge B,0,um,0.02,50," + sign + "1," +
+               sign + "0.02,certificate 77-A\nIndication,0,um,0.01,9,1,0.01,\n";
+    };
+    for (const char* const note : {"", "\"Drift line: r = 0.98 over 6 years\"\n", "\"Linear fit: r = 0.95\"\n",
+                                   "\"Note: r = 0.9 of the year\"\n"}) {
+        EXPECT_TRUE(has(audit_of_correlated(heads + rows("") + note + claims), "S10")) << note;
+    }
+    const std::string together = "\"A and B were calibrated together, r = 0.95\"\n";
+    EXPECT_FALSE(has(audit_of_correlated(heads + rows("") + together + claims), "S10"));
+    const std::string small = "u_c,,um,0.0118\nk,,,2\nU,,um,0.0237\n";
+    EXPECT_TRUE(has_critical(audit_of_correlated(heads + rows("-") + "\"Linear fit of drift: r = 0.95\"\n" + small)));
+    EXPECT_FALSE(has_critical(audit_of_correlated(heads + rows("-") + together + small)));
+}
+
+/// A sum of rows with r = 1 is the plain sum, and right (JCGM 100:2008, 5.2.2): K09 asks.
+TEST(Correlations, MakeAPlainSum) {
+    struct Case {
+        std::string r, third, u_c, U;
+    };
+    for (const Case& one :
+         {Case{"r = 1", "", "0.040", "0.080"}, Case{"r=0.75", "Indication,0,um,0.01,9,1,0.01\n", "0.0387", "0.077"},
+          Case{"r = 1", "Indication,0,um,0.01,9,1,0.01\n", "0.0412", "0.082"}}) {
+        const auto table = [&](const std::string& note) {
+            return "Quantity,Estimate,Unit,u,nu,Sensitivity,Contribution\nStandard gauge A,0,um,0.02,50,1,0.02\n"
+                   "Standard gauge B,0,um,0.02,50,1,0.02\n" +
+                   one.third + note + "u_c,,um," + one.u_c + "\nk,,,2\nU,,um," + one.U + "\n";
+        };
+        const auto is_accused = [](const AuditReport& report) {
+            return std::any_of(report.findings.begin(), report.findings.end(), [](const AuditFinding& finding) {
+                return (finding.rule == "K01" || finding.rule == "K09") && finding.severity >= FindingSeverity::major;
+            });
+        };
+        EXPECT_TRUE(is_accused(audit_of_correlated(table("")))) << one.u_c;
+        const AuditReport noted =
+            audit_of_correlated(table("\"Note: A and B were calibrated together, " + one.r + "\"\n"));
+        EXPECT_FALSE(is_accused(noted)) << one.u_c;
+        // A thousand notes are no work: each r is tried once, and eight at most.
+        std::string many;
+        for (int i = 0; i < 1000; ++i) {
+            many += "\"Note " + std::to_string(i) + ": r = -0." + std::to_string(1000 + i) + "\"\n";
+        }
+        EXPECT_TRUE(is_accused(audit_of_correlated(table(many)))) << one.u_c;
+    }
+}
+
 /// A coefficient in a cell is read with its symbol; a term with the sign of a correlation is none of the rows.
 TEST(Correlations, AreStatedByTheirSymbolInACell) {
     EXPECT_EQ(stated_correlation("r = 0.9"), 0.9);
