@@ -1010,6 +1010,7 @@ std::optional<NamedStatement> statement_named(std::string_view name, bool may_ha
                 return unit.dimension() == gum::Unit::parse("V").dimension();
             };
             if (is_U && !is_voltage(*known_unit(std::string(behind.substr(0, end)))) && named->assigned.empty()) {
+                named->unit_of_U = behind.substr(0, end);
                 return named;
             }
         }

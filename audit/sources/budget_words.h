@@ -85,6 +85,8 @@ struct NamedStatement {
     bool says_of_what = false;  ///< a relative one, beside coverage: "(of full scale)"
     std::string coverage = {};  ///< "(k = 2.08, p = 95 %)" of "Expanded uncertainty (k = 2.08, p = 95 %)"
     std::string assigned = {};  ///< "0.096 mg" of "U = 0.096 mg": what stands behind the name in its own cell
+    /// Of "U / mm" alone, which may be another quantity in another unit (a circumference; revolutions of "U / min"): its unit.
+    std::string unit_of_U = {};
 };
 [[nodiscard]] std::optional<NamedStatement> named_statement(std::string_view name);
 

@@ -11,6 +11,7 @@
 #include "audit/sources/parts_of_value.h"
 #include "audit/sources/stated_rule.h"
 #include "audit/sources/table_units.h"
+#include "gum/quantity/unit.h"
 #include "text/small_letters.h"
 #include "text/visible_text.h"
 
@@ -454,6 +455,16 @@ std::size_t first_below(const Heads& heads, const SheetView::Row& row) {
     return static_cast<std::size_t>(at - row.begin());
 }
 
+/// Whether "U / mm" may be the U of a table: its heads are in units of that dimension. Above a table, and in another unit, it is
+/// the circumference of a part, or revolutions, as likely.
+bool may_be_U_of(const Heads* heads, const std::string& unit) {
+    const std::optional<gum::Unit> own = known_unit(unit);
+    return heads != nullptr && own && std::any_of(heads->units.begin(), heads->units.end(), [&own](const auto& of) {
+               const std::optional<gum::Unit> other = known_unit(of.second);
+               return other && other->dimension() == own->dimension();
+           });
+}
+
 }  // namespace
 
 std::optional<NamedLine> name_of_line(const SheetView& sheet, const SheetView::Row& row, const Heads* heads) {
@@ -464,6 +475,9 @@ std::optional<NamedLine> name_of_line(const SheetView& sheet, const SheetView::R
             break;
         }
         std::optional<NamedStatement> named = named_statement(held.text);
+        if (named && !named->unit_of_U.empty() && !may_be_U_of(heads, named->unit_of_U)) {
+            named.reset();
+        }
         if (named && !named->assigned.empty()) {
             const bool is_both = named->statement == Statement::value && !named->may_be_quantity &&
                                  value_with_U(sheet, *row[i], named->assigned);
