@@ -39,9 +39,16 @@ bool claims_follow(const AuditedBudget& budget, const BudgetOutcome& evaluated) 
            std::abs(evaluate(budget, check.coverage).k - evaluated.k) <= k_same * evaluated.k;
 }
 
+/// Whether u_c is claimed as the rows give it, so that ν_eff and k are what the digits leave open.
+bool has_u_c_of_rows(const AuditedBudget& budget, const BudgetOutcome& evaluated) {
+    return budget.coverage.kind != CoverageRule::Kind::fixed && budget.claims.u_c &&
+           std::abs(budget.claims.u_c->value - evaluated.u_c) <=
+               0.5 * (1.0 + 1e-9) * stated_step_of(*budget.claims.u_c);
+}
+
 void note_uncorrected_U(AuditedBudget& budget) {
     budget.uncorrected_U.reset();
-    budget.within_digits = 1.0;
+    budget.within_digits = budget.U_within_digits = 1.0;
     if (!budget.claims.U || !(budget.claims.U->value > 0.0) || !budget.claims.broken.U.empty()) {
         return;
     }
@@ -60,7 +67,8 @@ void note_uncorrected_U(AuditedBudget& budget) {
             (off <= 2.0 * found.step && off <= k_little * found.stated);
         if (!is_rounding && found.evaluated > 0.0 && !found.text.empty() && !budget.evaluated_here &&
             !budget.computed_claims && !evaluated.at_capability && claims_follow(budget, evaluated)) {
-            budget.within_digits = found.stated / found.evaluated;
+            (has_u_c_of_rows(budget, evaluated) ? budget.U_within_digits : budget.within_digits) =
+                found.stated / found.evaluated;
             found.evaluated = evaluate(budget).U;
         }
         // u_c and k that were rounded on the way move U by two units at most.
@@ -381,7 +389,8 @@ AuditReport audit(AuditSubject subject, std::span<const Rule> rules) {
             AuditedBudget of_rows = budget;
             // What the rows alone give, beside what is claimed: their ratio is what no row explains, and other
             // corrections keep it.
-            of_rows.u_c_over_rows = of_rows.k_over_rows = of_rows.U_over_k_u_c = of_rows.within_digits = 1.0;
+            of_rows.u_c_over_rows = of_rows.k_over_rows = of_rows.U_over_k_u_c = of_rows.within_digits =
+                of_rows.U_within_digits = 1.0;
             result.recomputed = evaluate(of_rows);
             const BudgetOutcome evaluated = evaluate(budget);
             result.claimed = claimed_outcome(budget, evaluated);

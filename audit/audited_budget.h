@@ -260,6 +260,8 @@ struct AuditedBudget {
     /// The claimed U over that of the rows, where the digits of the rows leave it open and it is no rounding of the latter: the
     /// laboratory computed with digits that the table does not print. Set by the audit; it stays while findings are corrected.
     double within_digits = 1.0;
+    /// The same where the claimed u_c is that of the rows, and the digits leave ν_eff and k open: then u_c stays, and U has the ratio.
+    double U_within_digits = 1.0;
     /// Evaluated by this program from its measurement model: sensitivities, sum and k come from there and need no second
     /// look; what was stated of the inputs does.
     bool evaluated_here = false;

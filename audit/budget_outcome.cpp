@@ -319,12 +319,11 @@ void print(const AuditedBudget& budget, BudgetOutcome& outcome) {
     constexpr double k_unchanged = 5e-4;  // what prints as 0.0 %
     const UncorrectedU* before = budget.uncorrected_U ? &*budget.uncorrected_U : nullptr;
     const bool has_text = before != nullptr && !before->text.empty();
-    const bool is_stated = has_text && (std::abs(outcome.U / before->evaluated - 1.0) < k_unchanged ||
+    const bool is_rounded = before != nullptr && is_rounded_as_stated(budget, *before, outcome.U);
+    const bool is_stated = has_text && (std::abs(outcome.U / before->evaluated - 1.0) < k_unchanged || is_rounded ||
                                         is_within_statement(budget, *before, outcome.U));
     const bool is_as_stated =
-        before != nullptr &&
-        (is_rounded_as_stated(budget, *before, outcome.U) ||
-         (is_stated && before->step > step_of_digits(before->stated, budget.digits) * (1.0 + 1e-9)));
+        is_rounded || (is_stated && before->step > step_of_digits(before->stated, budget.digits) * (1.0 + 1e-9));
     const double value = outcome.value.value_or(0.0), U = is_as_stated ? before->stated : outcome.U;
     const gum::RoundedPair printed = gum::round_to_uncertainty(value, U, budget.digits, budget.rounding);
     outcome.printed_value = outcome.value ? printed.value : "";
@@ -369,7 +368,7 @@ BudgetOutcome evaluate(const AuditedBudget& budget, const CoverageRule& coverage
     outcome.nu_eff =
         effective_degrees_of_freedom(budget, coverage.correlated, of_tangent > 0.0 ? std::sqrt(of_tangent) : u_of_rows);
     outcome.k = coverage_factor_of(budget, coverage, u_of_rows, outcome.nu_eff) * budget.k_over_rows;
-    outcome.U = outcome.k * outcome.u_c * budget.U_over_k_u_c;
+    outcome.U = outcome.k * outcome.u_c * budget.U_over_k_u_c * budget.U_within_digits;
     if (budget.floor_applied && budget.capability && *budget.capability > outcome.U) {
         outcome.U = *budget.capability;
         outcome.at_capability = true;

@@ -332,6 +332,7 @@ std::optional<std::size_t> count_of_readings(const Pieces& pieces) {
             }
         }
     }
+    std::optional<std::size_t> qualified;  // "3 single measurements of 5 readings" are 5 readings
     for (std::size_t i = 0; i < pieces.size(); ++i) {
         const Piece& piece = pieces[i];
         const auto follows = [&](std::size_t ahead, std::initializer_list<std::string_view> beginnings) {
@@ -352,13 +353,16 @@ std::optional<std::size_t> count_of_readings(const Pieces& pieces) {
         const bool is_qualified =
             follows(1, {"equal", "identical", "single", "repeated", "independent", "successive", "consecutive",
                         "gleich", "identisch", "einzeln", "wiederholt", "unabhangig", "aufeinanderfolgend"});
-        if (piece.kind == Piece::Kind::number && (counts_readings(1) || (is_qualified && counts_readings(2)))) {
+        if (piece.kind == Piece::Kind::number && counts_readings(1)) {
             if (const std::optional<std::size_t> count = count_of(piece)) {
                 return count;
             }
         }
+        if (piece.kind == Piece::Kind::number && is_qualified && counts_readings(2) && !qualified) {
+            qualified = count_of(piece);
+        }
     }
-    return std::nullopt;
+    return qualified;
 }
 
 /// "ν = 9", "dof 9", "9 degrees of freedom", "Freiheitsgrade: 9".

@@ -621,7 +621,8 @@ void counted_twice(const AuditSubject& subject, FindingCollector& findings) {
 
 /// What the rows of a budget give by themselves, whatever is claimed.
 AuditedBudget of_rows(AuditedBudget budget) {
-    budget.u_c_over_rows = budget.k_over_rows = budget.U_over_k_u_c = budget.within_digits = 1.0;
+    budget.u_c_over_rows = budget.k_over_rows = budget.U_over_k_u_c = budget.within_digits = budget.U_within_digits =
+        1.0;
     return budget;
 }
 

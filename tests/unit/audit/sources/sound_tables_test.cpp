@@ -277,6 +277,8 @@ TEST(SoundTables, StateDegreesOfFreedomInTheDistributionAndReadingsWithAnAdjecti
                                    "Repeatability of 5 independent measurements"}) {
         EXPECT_EQ(table("normal", name).subject.budgets.at(0).rows.at(1).n, 5U) << name;
     }
+    EXPECT_EQ(table("normal", "Repeatability (3 single measurements of 5 readings)").subject.budgets.at(0).rows.at(1).n,
+              5U);
     EXPECT_FALSE(table("normal", "Repeatability (5 kg load)").subject.budgets.at(0).rows.at(1).n);
 }
 
@@ -301,6 +303,22 @@ TEST(SoundTables, AreHeadedBySourceAndStateUInTheUnitOfALength) {
         EXPECT_EQ(stated(unit).subject.budgets[0].claims.U->value, 0.025) << unit;
     }
     EXPECT_FALSE(stated("mV").subject.budgets.at(0).claims.U) << "it may be a voltage";
+    // A "U" in the unit of something else is no U of the table, nor is one above it.
+    const std::string rows =
+                          "Quantity,Unit,u,Sensitivity,Contribution\nA,mm,0.02,1,0.02\nB,mm,0.01,1,0.01\n"
+                          "u_c,mm,,,0.0224\nk,,,,2\n",
+                      U = "Expanded uncertainty,mm,,,0.045\n";
+    for (const char* const other : {"U / min,,,,1500\n", "U / J,,,,120\n"}) {
+        const AuditReport report = audited_text(rows + other + U);
+        EXPECT_FALSE(has(report, "K01")) << other << accusations(report);
+        EXPECT_EQ(report.subject.budgets.at(0).claims.U->value, 0.045) << other;
+    }
+    for (const char* const above :
+         {"U / min,1500\n\n", "U / mm,314.2\n\n", "U / W/(m2*K),1.20\n\n", "U / J,5000\n\n"}) {
+        const AuditReport report = audited_text(above + rows + U);
+        EXPECT_FALSE(has(report, "K01")) << above << accusations(report);
+        EXPECT_EQ(report.subject.budgets.at(0).claims.U->value, 0.045) << above;
+    }
     // Readings to the left of a table, and numbers of its rows, are none of its results.
     for (const char* const head : {"Readings", "No.", "Datum"}) {
         const AuditReport right = audited_text(
@@ -320,6 +338,22 @@ TEST(SoundTables, AreHeadedBySourceAndStateUInTheUnitOfALength) {
         "Combined standard uncertainty,,,K,,,,,0.0144\nk,,,,,,,,2\nExpanded uncertainty,,,K,,,,,0.029\n");
     EXPECT_FALSE(has(blank, "U23"));
     EXPECT_EQ(blank.subject.budgets.at(0).rows.at(0).stated->value, 0.02);
+}
+
+/// What the digits leave open here is ν_eff and k: nobody claims another u_c than the rows give, and none is told.
+TEST(SoundTables, KeepTheirUcWhereTheDigitsLeaveKOpen) {
+    for (const char* const table :
+         {"quantity,unit,U or a,divisor,distribution,u,sensitivity,contribution\n"
+          "Reference standard,V,0.0278,2.776,t(5),0.010,1,0.010\nRepeatability,V,0.002,1,normal,0.002,1,0.002\n"
+          "Resolution,V,0.005,1.732,rectangular,0.00289,1,0.00289\nu_c,V,0.0106\nnu_eff,,5\nk,,2.65\nU,V,0.028\n",
+          "Quantity,Unit,u,nu,Sensitivity,Contribution\nInfluence 1,um,0.004,19,1,0.004\n"
+          "Influence 2,um,0.005,3,1,0.005\nInfluence 3,um,0.02,5,1,0.02\nInfluence 4,um,0.02,inf,1,0.02\n"
+          "u_c,um,0.029\nnu_eff,,19\nk,,2.14\nU,um,0.063\ncoverage probability,,95.45 %\n"}) {
+        const AuditReport report = audited_text(table);
+        ASSERT_EQ(report.results.size(), 1U) << table;
+        EXPECT_DOUBLE_EQ(report.results[0].audited.u_c, report.results[0].recomputed.u_c) << table;
+        EXPECT_EQ(report.results[0].audited.printed_U, report.results[0].claimed.printed_U) << table;
+    }
 }
 
 /// U was divided by the number behind "t": it is a factor, and no ν, with which K02 would be critical.
