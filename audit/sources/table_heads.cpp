@@ -156,8 +156,9 @@ void take_relative_and_first(const SheetView& sheet, const SheetView::Row& row, 
     take_first_contribution_for_quantity(sheet, row, heads);
     const bool is_budget = (has(Column::u) || has(Column::contribution)) &&
                            (has(Column::divisor) || has(Column::distribution) || has(Column::sensitivity));
-    // "Source | Standard uncertainty / mm": where it comes from is what it is.
-    const bool has_source_of_u = has(Column::source) && (has(Column::u) || has(Column::contribution));
+    // "Source | Standard uncertainty / mm": where it comes from is what it is. Beside values, or U, it is a list of results.
+    const bool has_source_of_u = has(Column::source) && !has(Column::estimate) && !has(Column::stated) &&
+                                 (has(Column::u) || has(Column::contribution));
     if (has(Column::quantity) || (!is_budget && !has_source_of_u)) {
         return;
     }

@@ -292,6 +292,15 @@ TEST(SoundTables, AreHeadedBySourceAndStateUInTheUnitOfALength) {
         ASSERT_EQ(report.results.size(), 1U) << head;
         EXPECT_NEAR(report.results[0].recomputed.U, 0.0391, 1e-4) << head;
     }
+    // Results of laboratories, and a list of standards, are no budget.
+    for (const char* const list :
+         {"Source,Value,Standard uncertainty (mm),U (k = 2) (mm)\nNIST,10.001,0.0005,0.001\nPTB,10.002,0.0008,0.0016\n",
+          "Quelle,Wert (mm),Standardunsicherheit "
+          "(mm)\nPTB,10.001,0.0005\nNPL,10.002,0.0006\nMittelwert,10.0015,0.0004\n",
+          "Certificate,Valid to,Standard uncertainty (mm),U (mm),k\n77-A,2027-01-01,0.0005,0.001,2\n"
+          "78-B,2027-02-01,0.0008,0.0016,2\n"}) {
+        EXPECT_TRUE(subject_of(workbook::read_csv(list, "b.csv", "b"), "b.csv").budgets.empty()) << list;
+    }
     const auto stated = [](const std::string& unit) {
         return audited_text("Quantity,u / " + unit + ",c,Contribution / " + unit +
                             "\nReference,0.010,1,0.010\nDrift,0.006,1,0.006\n"
