@@ -424,7 +424,7 @@ std::vector<BadReference> bad_references() {
          {{"\"outputs\"", R"("points": [{"reading": 1}], "outputs")"}},
          "GC-REFERENCE-0003",
          "budgets/indicator.json#/points",
-         "1 points"},
+         "1 point —"},
         {"BudgetThatIsRefusedByItself",
          {{"\"u\": 0.3", "\"u\": -0.3"}},
          "GC-INPUT-0023",
