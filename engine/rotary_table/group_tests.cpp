@@ -178,11 +178,13 @@ private:
         return test;
     }
 
+    /// Distances that a program made up exactly scatter by rounding alone, which is no measure of anything: a scale below it.
+    static constexpr double k_exact = 1e-3;
     /// 1 where a robust scale may be 1, else its limit on the side of 1.
     static double within(double scale, double upper) {
         // The scale is known to 1.17/√n only. What chance explains of it is not used, or every sound measurement would
         // be divided by a scale of its own.
-        return scale * upper < 1.0 ? scale * upper : std::max(1.0, scale / upper);
+        return scale * upper < 1.0 ? std::max(k_exact, scale * upper) : std::max(1.0, scale / upper);
     }
     /// Wilson and Hilferty's, within 1 % from 1 degree of freedom on.
     static double median_of_chi_square(int degrees_of_freedom) {
@@ -230,6 +232,8 @@ private:
     /// \throws gum::NoResultError  GC-ADJUST-0015 where it is no sum of squares: distances that are off by metres leave rounding
     ///                             that is larger than what the other groups say
     GroupTest judged(GroupKind kind, double chi_square, int degrees_of_freedom, std::size_t count) const {
+        constexpr double k_rounding = 1e-3;  // below what any test tells from 0; of exact distances it may lie below 0
+        chi_square = std::abs(chi_square) < k_rounding ? std::max(chi_square, 0.0) : chi_square;
         if (!(chi_square >= 0.0)) {
             throw gum::NoResultError(gum::Diagnostic{
                 "GC-ADJUST-0015", "tests of groups",
@@ -1252,7 +1256,7 @@ private:
                 }
             }
         }
-        if (pairs < k_fewest_for_scatter || !(squares > 0.0)) {
+        if (pairs < k_fewest_for_scatter || !(squares > 0.0) || result_.scale < k_exact) {
             return;
         }
         const double r = products / squares;
@@ -1267,6 +1271,9 @@ private:
     /// Ratio of the mean squares of the deviations of one station and of all others. The logarithm of a ratio of
     /// variances with ν₁ and ν₂ degrees of freedom has the variance 2/ν₁ + 2/ν₂, nearly.
     void search_stations() {
+        if (result_.scale < k_exact) {
+            return;
+        }
         const std::size_t stations = adjustment_.measurement().stations.size();
         VectorXd squares = VectorXd::Zero(static_cast<Index>(stations));
         VectorXd counts = squares;

@@ -767,6 +767,26 @@ TEST(PlantedBlunders, FewDistancesAreNotLeftOutUntilNothingObjects) {
     EXPECT_GT(refused, 0);
 }
 
+// Of exact distances, as a program makes them up, nothing is left but rounding: no group says anything.
+TEST(PlantedBlunders, ExactDistancesAreASoundMeasurement) {
+    for (const int angles : {6, 12}) {
+        for (const bool both_senses : {false, true}) {
+            for (const double error_factor : {0.0, 1.0}) {
+                synthetic::CampaignPlan plan;
+                plan.angles_deg = synthetic::full_turn(angles);
+                plan.both_senses = both_senses;
+                plan.runs = 2;
+                plan.start_values = angles == 6;
+                plan.noise = 0.0;
+                plan.error_factor = error_factor;
+                const RotaryTableSolution solution = evaluated(synthetic::simulate(plan).measurement);
+                EXPECT_LT(solution.chi_square, 1e-3);
+                EXPECT_TRUE(std::ranges::none_of(solution.groups->tests, &GroupTest::suspicious));
+            }
+        }
+    }
+}
+
 TEST(PlantedBlunders, NoneIsSilent) {
     for (const auto& [blunder, name] : synthetic::k_blunders) {
         for (std::uint64_t seed = 200; seed < 204; ++seed) {
