@@ -194,10 +194,9 @@ TEST_F(ArchiveOfALaboratory, TakesARecordOfACertificateOnly) {
         << refused.err;
 }
 
-// A report of a comparison has a number, and no gates, persons or digital certificate: it is kept as certificates are.
-TEST_F(ArchiveOfALaboratory, KeepsTheReportOfAComparison) {
-    begin();
-    const json job = {
+/// A comparison of two laboratories whose report has a number.
+json job_of_a_comparison() {
+    return {
         {"schema", "gumcert/job/1"},
         {"kind", "comparison"},
         {"title", "Comparison of gauge blocks"},
@@ -210,6 +209,12 @@ TEST_F(ArchiveOfALaboratory, KeepsTheReportOfAComparison) {
           {"languages", {"en"}},
           {"dates", {{"issued", "2026-11-02"}}}}},
         {"participants", {{{"id", "A"}, {"value", 12.31}, {"u", 0.10}}, {{"id", "B"}, {"value", 12.18}, {"u", 0.12}}}}};
+}
+
+// A report of a comparison has a number, and no gates, persons or digital certificate: it is kept as certificates are.
+TEST_F(ArchiveOfALaboratory, KeepsTheReportOfAComparison) {
+    begin();
+    const json job = job_of_a_comparison();
     write_bytes(folder() / "pt.json", job.dump());
     const std::string record = path("pt-record.json");
     const std::string page = path("pt.html");
@@ -247,19 +252,7 @@ TEST_F(ArchiveOfALaboratory, KeepsTheReportOfAComparison) {
 // An amended report refers to the first one, which it supersedes (ISO/IEC 17025:2017, 7.8.8).
 TEST_F(ArchiveOfALaboratory, AmendsTheReportOfAComparison) {
     begin();
-    json job = {
-        {"schema", "gumcert/job/1"},
-        {"kind", "comparison"},
-        {"title", "Comparison of gauge blocks"},
-        {"unit", "um"},
-        {"assigned_value", {{"value", 12.2}, {"U", 0.1}, {"k", 2}}},
-        {"artefact_stability", "no change in two years, in U(X)"},
-        {"certificate",
-         {{"number", "CMP-2026-3"},
-          {"laboratory", {{"name", "Example Institute"}}},
-          {"languages", {"en"}},
-          {"dates", {{"issued", "2026-11-02"}}}}},
-        {"participants", {{{"id", "A"}, {"value", 12.31}, {"u", 0.10}}, {{"id", "B"}, {"value", 12.18}, {"u", 0.12}}}}};
+    json job = job_of_a_comparison();
     const auto made = [&](const std::string& name) {
         write_bytes(folder() / (name + ".json"), job.dump());
         Ended ended = gumcert(
