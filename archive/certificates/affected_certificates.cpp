@@ -463,12 +463,13 @@ void work_out(AffectedCertificate& one, const std::string& original, const Corre
         return;
     }
     if (!needs_amendment(one)) {
-        one.no_draft = !one.recalculated->states_otherwise() ? ""
-                       : is_before_issue(one.certificate.state)
-                           ? "it is " + one.certificate.state +
-                                 ", and not issued: evaluate its job with the corrected "
-                                 "standard, and add the record"
-                           : "it is " + one.certificate.state + ": what took its place is amended";
+        one.no_draft =
+            !one.recalculated->states_otherwise() ? ""
+            : is_before_issue(one.certificate.state)
+                ? "it is " + one.certificate.state +
+                      ", and not issued: evaluate its job with the corrected "
+                      "standard, and add the record"
+                : "it is " + one.certificate.state + ": where what took its place changes, too, that is amended";
         return;
     }
     if (!corrected) {  // another machine has calculated it
