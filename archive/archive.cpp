@@ -207,6 +207,12 @@ std::string time_after(const LogEntry& last, const LogEntry& entry) {
     return body && body->value(k_clock, json()) == entry.at ? last.at : at;
 }
 
+LogTimes taken_times(Store& store) {
+    LogTimes times;
+    store.each_entry([&](const LogEntry& entry) { (void)times.take(entry); });
+    return times;
+}
+
 void require_numbering(const Settings& settings) {
     if (!settings.numbering.empty() && !is_numbering(settings.numbering)) {
         refuse_request("GC-ARCHIVE-0025", "numbering", '"' + settings.numbering + '"',
@@ -312,6 +318,7 @@ LogEntry Archive::append(LogRules& rules, LogEntry entry) {
         refuse_breach({Breach::Kind::order, "", "no entry is earlier than the one before"}, entry, last->at);
     }
     rules.go_on_after(last->at);
+    require_sound_clock(entry);
     require_distinct(entry, rules);
     if (const std::optional<Breach> breach = rules.accept(entry)) {
         refuse_breach(*breach, entry, last->at);
@@ -408,6 +415,19 @@ void Archive::require_contents(const CertificateLife& life, const Judge& judge) 
         if (judge) {
             judge(record, life);
         }
+    }
+}
+
+/// A clock that was set right after it was ahead is held against all times of the log: rarely, and then each of them counts.
+void Archive::require_sound_clock(const LogEntry& entry) {
+    if (clock_of(entry).empty()) {
+        return;
+    }
+    LogTimes times = taken_times(store_);
+    if (std::string fault = times.take(entry); !fault.empty()) {
+        refuse_request("GC-ARCHIVE-0032", entry.certificate.empty() ? entry.kind : entry.certificate, std::move(fault),
+                       k_clock_rule,
+                       "look at a calendar, and set the clock of this machine right; where it is right, wait");
     }
 }
 
@@ -717,6 +737,12 @@ std::vector<LogEntry> Archive::history(const std::string& certificate) {
     store_.read([&] { entries = store_.entries_of(certificate); });
     require_known(certificate, entries);
     return entries;
+}
+
+LogTimes Archive::times() {
+    LogTimes times;
+    store_.read([&] { times = taken_times(store_); });
+    return times;
 }
 
 std::vector<ListedCertificate> Archive::list() {

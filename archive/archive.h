@@ -11,6 +11,7 @@
 
 #include "archive/head.h"
 #include "archive/log_rules.h"
+#include "archive/log_times.h"
 #include "archive/settings.h"
 #include "archive/store/store.h"
 
@@ -109,6 +110,8 @@ public:
     /// \throws gum::InputError  GC-ARCHIVE-0026 where it is not in the archive
     [[nodiscard]] CertificateLife life(const std::string& certificate);
     [[nodiscard]] std::vector<LogEntry> history(const std::string& certificate);
+    /// Of all entries: which of them are of clocks that were ahead.
+    [[nodiscard]] LogTimes times();
     /// As the table of lists says: fast, for people. What decides something asks certificates().
     [[nodiscard]] std::vector<ListedCertificate> list();
     /// As the log says, by number.
@@ -142,6 +145,7 @@ private:
     Written write(const LogEntry& wanted, const Request& request, const Asked& asked,
                   const std::function<LogEntry(nlohmann::json)>& work);
     void require_contents(const CertificateLife& life, const Judge& judge);
+    void require_sound_clock(const LogEntry& entry);
     void require_distinct(const LogEntry& entry, const LogRules& rules);
     [[nodiscard]] bool still_holds(const LogEntry& known);
     void require_heads(const Draft& draft, const std::string& record);

@@ -231,8 +231,7 @@ private:
     void compare_with(const Head& head, const std::vector<Head>& known) {
         const Head& own = evidence_.head;
         const std::string where = "head of " + text::count_of(head.size, "entry") + ", " + head.at;
-        if (head.archive != own.archive ||
-            (head.size == own.size && (head.root != own.root || head.chain != own.chain || head.at != own.at)) ||
+        if (head.archive != own.archive || (head.size == own.size && !is_same_log(head, own)) ||
             (head.size < own.size ? head.at > own.at : head.at < own.at)) {
             add("GC-ARCHIVE-0045", where, "the evidence is of another archive, or of a log that was rewritten",
                 "heads of one archive agree");
@@ -278,7 +277,8 @@ private:
         }
         if ((entry.seq == 1) != (entry.hash == evidence_.head.archive) || entry.at > evidence_.head.at ||
             (entry.seq == evidence_.head.size &&
-             (entry.hash != evidence_.head.chain || entry.at != evidence_.head.at)) ||
+             (entry.hash != evidence_.head.chain || entry.at != evidence_.head.at ||
+              (!evidence_.head.clock.empty() && clock_of(entry) != evidence_.head.clock))) ||
             root_of_proof(entry.hash, static_cast<std::size_t>(entry.seq - 1),
                           static_cast<std::size_t>(evidence_.head.size), proven.proof) != evidence_.head.root) {
             add("GC-ARCHIVE-0048", where, "its proof does not lead to the head",
@@ -344,7 +344,7 @@ private:
 
     /// The statement names every entry that the log has of its certificates: one that was left out, or planted, shows.
     void look_at_states(const StateStatement& states) {
-        if (!is_utc_time(states.at) || states.at < evidence_.head.at) {
+        if (!is_utc_time(states.at) || states.at < time_of(evidence_.head)) {
             add("GC-ARCHIVE-0056", "statement of states", "its time is none, or before that of the head",
                 "a statement of states is made of the log that its head speaks of");
         }

@@ -1,10 +1,10 @@
 #include "archive/head.h"
 
-#include <chrono>
 #include <cstddef>
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "archive/log_times.h"
 #include "encoding/sha2.h"
 #include "gum/quantity/diagnostic.h"
 #include "json/canonical_json.h"
@@ -59,12 +59,16 @@ Head::Extension extension_in(const nlohmann::json& value, const std::string& nam
 }
 
 nlohmann::json unsigned_json(const Head& head) {
-    return {{"schema", k_head_schema},
-            {"archive", encoding::hexadecimal(head.archive)},
-            {"size", head.size},
-            {"root", encoding::hexadecimal(head.root)},
-            {"chain", encoding::hexadecimal(head.chain)},
-            {"at", head.at}};
+    nlohmann::json object{{"schema", k_head_schema},
+                          {"archive", encoding::hexadecimal(head.archive)},
+                          {"size", head.size},
+                          {"root", encoding::hexadecimal(head.root)},
+                          {"chain", encoding::hexadecimal(head.chain)},
+                          {"at", head.at}};
+    if (!head.clock.empty()) {
+        object[k_clock] = head.clock;
+    }
+    return object;
 }
 
 }  // namespace
@@ -77,6 +81,7 @@ void WalkedLog::add(const LogEntry& entry) {
     head_.size = static_cast<std::int64_t>(tree_.size());
     head_.chain = entry.hash;
     head_.at = entry.at;
+    head_.clock = clock_of(entry);
 }
 
 Head WalkedLog::head() const {
@@ -98,6 +103,20 @@ std::optional<Head> WalkedLog::head_since(const Head& earlier) const {
     return later;
 }
 
+bool is_same_log(const Head& one, const Head& other) {
+    // Heads from before clocks were stated have none.
+    return one.root == other.root && one.chain == other.chain && one.at == other.at &&
+           (one.clock == other.clock || one.clock.empty() || other.clock.empty());
+}
+
+const std::string& time_of(const Head& head) {
+    return head.clock.empty() ? head.at : head.clock;
+}
+
+std::string time_in_words(const Head& head) {
+    return head.clock.empty() ? head.at : head.clock + " (by its log " + head.at + ", of a clock that was ahead)";
+}
+
 bool proves_its_extension(const Head& head) {
     return head.extends && head.extends->size >= 1 &&
            is_extended(static_cast<std::size_t>(head.extends->size), head.extends->root,
@@ -111,7 +130,7 @@ bool proves_extension(const Head& later, const Head& earlier) {
     // The proof is of roots; the last entry and its time are told beside it. Of one size it is the same head, and nothing to
     // be proved.
     if (later.size == earlier.size) {
-        return later.root == earlier.root && later.chain == earlier.chain && later.at == earlier.at;
+        return is_same_log(later, earlier);
     }
     return later.extends && later.extends->size == earlier.size && later.extends->root == earlier.root &&
            proves_its_extension(later) && later.at >= earlier.at;
@@ -172,29 +191,6 @@ std::string to_json(const Head& head) {
     return gumcert::json::canonical_json(object);
 }
 
-bool is_utc_time(std::string_view text) {
-    constexpr std::string_view k_form = "dddd-dd-ddTdd:dd:ddZ";
-    bool is = text.size() == k_form.size();
-    for (std::size_t i = 0; is && i < text.size(); ++i) {
-        is = k_form[i] == 'd' ? text[i] >= '0' && text[i] <= '9' : text[i] == k_form[i];
-    }
-    if (!is) {
-        return false;
-    }
-    const auto number = [&](std::size_t from, std::size_t digits) {
-        int value = 0;
-        for (const char digit : text.substr(from, digits)) {
-            value = 10 * value + (digit - '0');
-        }
-        return value;
-    };
-    // The clocks that write here know no leap seconds (POSIX), and no year 0.
-    const std::chrono::year_month_day date{std::chrono::year(number(0, 4)),
-                                           std::chrono::month(static_cast<unsigned>(number(5, 2))),
-                                           std::chrono::day(static_cast<unsigned>(number(8, 2)))};
-    return date.ok() && number(0, 4) > 0 && number(11, 2) < 24 && number(14, 2) < 60 && number(17, 2) < 60;
-}
-
 Head head_from_json(std::string_view text, const std::string& name) {
     const std::optional<nlohmann::json> object = gumcert::json::parse_faultless(text, {});
     if (!object) {
@@ -222,6 +218,13 @@ Head head_in(const nlohmann::json& object, const std::string& name) {
     }
     head.size = size.get<std::int64_t>();
     head.at = at.get<std::string>();
+    if (const auto clock = object.find(k_clock); clock != object.end()) {
+        if (!clock->is_string() || !is_utc_time(clock->get_ref<const std::string&>()) ||
+            clock->get_ref<const std::string&>() >= head.at) {
+            refuse_head(name, k_clock);
+        }
+        head.clock = clock->get<std::string>();
+    }
     if (const auto signature = object.find("signature"); signature != object.end()) {
         head.signature = signature_in(*signature);
         if (!head.signature) {

@@ -21,6 +21,8 @@ struct Head {
     std::string root;       ///< of the Merkle tree over the hashes of the entries (archive/store/merkle.h)
     std::string chain;      ///< hash of the last entry
     std::string at;         ///< time of the last entry
+    /// What the clock of the last entry said, where that entry states it; "" else. By it goes what is signed, and when.
+    std::string clock = {};
     struct Signature {
         std::string public_key;  ///< Ed25519, 32 bytes
         std::string value;       ///< 64 bytes, over signed_bytes()
@@ -65,6 +67,12 @@ private:
 /// \param proves  whether the one head proves that it extends the other
 [[nodiscard]] bool leads_to(const Head& later, const Head& earlier, const std::vector<Head>& known,
                             const std::function<bool(const Head&, const Head&)>& proves = proves_extension);
+/// Whether two heads of one size say the same of it.
+[[nodiscard]] bool is_same_log(const Head& one, const Head& other);
+/// When the last entry was written, as far as it says: by its clock, or by the log.
+[[nodiscard]] const std::string& time_of(const Head& head);
+/// The same for a reader, with both where they differ.
+[[nodiscard]] std::string time_in_words(const Head& head);
 /// Whether the proof in a head leads from the root that it names to its own.
 [[nodiscard]] bool proves_its_extension(const Head& head);
 
@@ -79,8 +87,6 @@ private:
 [[nodiscard]] nlohmann::json to_json(const Head::Signature& signature);
 /// \return none where it is of another form
 [[nodiscard]] std::optional<Head::Signature> signature_in(const nlohmann::json& value);
-/// "2026-11-24T18:52:52Z", as entries, heads and statements have times: one that there is.
-[[nodiscard]] bool is_utc_time(std::string_view text);
 
 /// What a signature of a head is over: its canonical JSON without the signature.
 [[nodiscard]] std::string signed_bytes(const Head& head);

@@ -4,7 +4,6 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "archive/head.h"
 #include "archive/names.h"
 #include "encoding/sha2.h"
 #include "json/strict_parser.h"

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "archive/log_times.h"
 #include "archive/settings.h"
 #include "archive/store/entry.h"
 
@@ -82,9 +83,6 @@ private:
     void apply(const LogEntry& entry, const nlohmann::json& body);
 };
 
-/// Member of a body: what the clock said, where that was earlier than the entry before, which a clock that was ahead has
-/// written. The entry has the time of that one. (docs/adr/0087-a-clock-that-was-ahead.md)
-inline constexpr const char* k_clock = "clock";
 /// The rule for originals of amendments.
 inline constexpr const char* k_amendable_rule =
     "an amendment amends or replaces a certificate that is issued and holds, or whose amendment was withdrawn";

@@ -15,8 +15,9 @@ namespace {
 
 using nlohmann::json;
 
-json shown_entry(const LogEntry& entry) {
+json shown_entry(const LogEntry& entry, bool is_ahead) {
     return {{"seq", entry.seq},
+            {"clock_was_ahead", is_ahead},
             {"at", entry.at},
             {"by", entry.actor},
             {"kind", entry.kind},
@@ -93,13 +94,15 @@ std::string history_text(Archive& archive, const std::string& number) {
                             text::one_line(of_later.since));
         later = of_later.later;
     }
+    const std::set<std::int64_t> ahead = archive.times().ahead();
     for (const LogEntry& entry : entries) {
         const json body = body_of(entry).value_or(json::object());
         const auto clock = body.find(k_clock);
         text += fmt::format("  {:>6}  {}{}  {:<10}  {}", entry.seq, text::one_line(entry.at),
                             clock != body.end() && clock->is_string()
                                 ? " (the clock said " + text::one_line(clock->get_ref<const std::string&>()) + ")"
-                                : "",
+                            : ahead.contains(entry.seq) ? " (a later entry says that this clock was ahead)"
+                                                        : "",
                             text::one_line(entry.kind), text::one_line(entry.actor));
         const auto why = body.find("why");
         text += why != body.end() && why->is_string() && !why->get_ref<const std::string&>().empty()
@@ -122,8 +125,9 @@ json history_json(Archive& archive, const std::string& number) {
     const std::vector<LogEntry> entries = archive.history(number);
     const CertificateLife life = archive.life(number);
     json list = json::array();
+    const std::set<std::int64_t> ahead = archive.times().ahead();
     for (const LogEntry& entry : entries) {
-        list.push_back(shown_entry(entry));
+        list.push_back(shown_entry(entry, ahead.contains(entry.seq)));
     }
     return {{"schema", "gumcert/archive-certificate/1"},
             {"number", number},

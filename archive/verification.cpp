@@ -55,6 +55,7 @@ public:
         found_.entries = log_.tree().size();
         found_.contents = kept_.size();
         found_.certificates = rules_.lives().size();
+        found_.set_back = times_.set_back();
         if (log_.tree().size() > 0) {
             found_.head = log_.head();
         } else {
@@ -77,8 +78,12 @@ private:
     Verification found_;
     std::size_t left_out_ = 0;
     LogRules rules_;
+    LogTimes times_;
     WalkedLog log_;
-    std::vector<std::pair<std::string, std::string>> chains_;  // hash and time of every entry
+    struct LastEntry {
+        std::string chain, at, clock;
+    };
+    std::vector<LastEntry> chains_;  // of the log up to every entry
     std::set<std::string> keys_;
     struct Naming {
         std::int64_t seq = 0;      // of the entry that names a content first
@@ -123,6 +128,10 @@ private:
             // Taken all the same: one breach would else make a breach of every entry that follows.
             rules_.take(entry);
         }
+        if (std::string fault = times_.take(entry); !fault.empty()) {
+            add("GC-ARCHIVE-0043", where, std::move(fault), k_clock_rule,
+                "find out who wrote this entry, and whether the clock was set back on purpose");
+        }
         if (!entry.request_key.empty() && !keys_.insert(entry.request_key).second) {
             add("GC-ARCHIVE-0043", where, "its key \"" + entry.request_key + "\" was used before",
                 "a key belongs to one request", "find out who wrote this entry, and with which program");
@@ -136,7 +145,7 @@ private:
             }
         }
         log_.add(entry);
-        chains_.emplace_back(entry.hash, entry.at);
+        chains_.push_back({entry.hash, entry.at, clock_of(entry)});
         if (progress_ && log_.tree().size() % k_between_reports == 0) {
             progress_(text::count_of(static_cast<std::int64_t>(log_.tree().size()), "entry"));
         }
@@ -208,9 +217,9 @@ private:
             add("GC-ARCHIVE-0045", where,
                 "the archive has " + text::count_of(static_cast<std::int64_t>(log_.tree().size()), "entry"), rule,
                 action);
-        } else if (const auto& [chain, at] = chains_[static_cast<std::size_t>(head.size) - 1];
+        } else if (const auto& [chain, at, clock] = chains_[static_cast<std::size_t>(head.size) - 1];
                    log_.tree().root(static_cast<std::size_t>(head.size)) != head.root || chain != head.chain ||
-                   at != head.at) {
+                   at != head.at || (!head.clock.empty() && clock != head.clock)) {
             add("GC-ARCHIVE-0045", where, "the entries of the archive up to there are others", rule, action);
         }
     }

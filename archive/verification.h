@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "archive/head.h"
+#include "archive/log_times.h"
 #include "archive/store/store.h"
 #include "gum/quantity/diagnostic.h"
 
@@ -18,6 +19,7 @@ inline constexpr std::size_t k_most_findings = 20;
 /// What was found when everything was computed again.
 struct Verification {
     std::size_t entries = 0, contents = 0, certificates = 0;
+    LogTimes::SetBack set_back;             ///< entries after clocks that were ahead
     std::optional<Head> head;               ///< of the log as it is; none where it is empty
     std::vector<gum::Diagnostic> findings;  ///< of severity error; empty: nothing was changed
     [[nodiscard]] bool sound() const { return findings.empty(); }

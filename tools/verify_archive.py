@@ -141,6 +141,69 @@ def is_time(at):
         return False
 
 
+DAY = 86400
+
+
+def seconds_of(at):
+    """Seconds from the first day of the calendar to a time of the one form."""
+    time = datetime.datetime(*(int(part) for part in re.findall(rb"[0-9]+", at)))
+    return round((time - datetime.datetime(1, 1, 1)).total_seconds())
+
+
+def clock_of(entry):
+    """What the clock of an entry said, where its body states it (docs/adr/0087-a-clock-that-was-ahead.md); empty else."""
+    clock = text(strict_object(entry["body"]) or {}, "clock").encode("utf-8", "replace")
+    return clock if is_time(clock) and clock < entry["at"] else b""
+
+
+class Clocks:
+    """How far a clock goes back that was set right after it was ahead (docs/adr/0088-how-far-a-clock-goes-back.md): it is not
+    behind one that was set right before, and says that the log was ahead by no more than it once went ahead at once. A day is
+    allowed beyond both, and in the first 31 days of an archive anything."""
+
+    def __init__(self):
+        self.taken = []  # time, clock or None, certificate
+        self.first = self.last = self.latest = None
+        self.ahead = self.step = 0
+        self.earliest = (b"", 0)
+
+    def take(self, entry):
+        """What is wrong with the clock of an entry, or None."""
+        if not is_time(entry["at"]):
+            return None
+        at, clock = seconds_of(entry["at"]), clock_of(entry)
+        said, wrong = seconds_of(clock) if clock else None, None
+        if said is None:
+            self.step = max(self.step, at - self.last) if self.last is not None else 0
+        else:
+            if self.latest is not None and said < self.latest - DAY:
+                wrong = "its clock is behind one that was set right before it"
+            elif self.first is not None and at - self.first > 31 * DAY and at - said > self.ahead + self.step + DAY:
+                wrong = "its clock goes back further than the log once went ahead"
+            self.latest = said if self.latest is None else max(self.latest, said)
+            self.ahead, self.step = max(at - self.latest, 0), 0
+            if not self.earliest[0] or clock < self.earliest[0]:
+                self.earliest = (clock, entry["seq"])
+        self.first = at if self.first is None else self.first
+        self.last = at if self.last is None else max(self.last, at)
+        self.taken.append((at, said, entry["certificate"]))
+        return wrong
+
+    def in_words(self):
+        """A line for whoever wants to know, or None."""
+        said, ahead, certificates, behind = 0, 0, set(), None
+        for at, clock, certificate in reversed(self.taken):
+            is_ahead = clock is None and behind is not None and at > behind
+            said, ahead = said + (clock is not None), ahead + is_ahead
+            if certificate and (is_ahead or clock is not None):
+                certificates.add(certificate)
+            if clock is not None:
+                behind = clock if behind is None else min(behind, clock)
+        return (f"{counted(said)} of a clock that was set back after it was ahead, the earliest {self.earliest[0].decode()} "
+                f"(entry {self.earliest[1]}); later times before: {counted(ahead)}; with such entries: "
+                f"{len(certificates)} certificate{'' if len(certificates) == 1 else 's'}") if said else None
+
+
 def latest_time():
     """The latest time that has come by this clock or by one that differs from it by five minutes."""
     return (datetime.datetime.now(datetime.timezone.utc) + datetime.timedelta(minutes=5)).strftime("%Y-%m-%dT%H:%M:%SZ").encode()
@@ -572,16 +635,27 @@ class Head:
             self.size, self.at = typed(value, "size", int), typed(value, "at", str).encode()
             self.signature = signature_in(value["signature"]) if "signature" in value else None
             self.extends = extension(value["extends"]) if "extends" in value else None
+            self.clock = typed(value, "clock", str).encode("utf-8", "replace") if "clock" in value else b""
         except (KeyError, TypeError) as missing:
             raise ValueError("no head of an archive") from missing
-        if self.size < 1 or not is_time(self.at) or (self.extends and self.extends[0] < 1):
+        if (self.size < 1 or not is_time(self.at) or (self.extends and self.extends[0] < 1) or
+                ("clock" in value and (not is_time(self.clock) or self.clock >= self.at))):
             raise ValueError("no head of an archive")
-        self.signed = canonical({key: value[key] for key in ("archive", "at", "chain", "root", "schema", "size")})
+        self.signed = canonical({key: value[key] for key in ("archive", "at", "chain", "clock", "root", "schema", "size") if key in value})
+        self.time = self.clock or self.at  # when its last entry was written, as far as that says
 
     def faults(self, name, public_key):
         fault = fault_of_signature(self.signature, self.signed, public_key, name, "head")
         if fault:
             yield fault
+
+    def time_in_words(self):
+        return f"{self.clock.decode()} (by its log {self.at.decode()}, of a clock that was ahead)" if self.clock else self.at.decode()
+
+    def is_same_log(self, other):
+        """Of one size; heads from before clocks were stated have none."""
+        return (self.root, self.chain, self.at) == (other.root, other.chain, other.at) and (
+            self.clock == other.clock or not self.clock or not other.clock)
 
     def begins_with(self, size, root, proof):
         return is_extended(size, root, self.size, self.root, proof)
@@ -589,7 +663,7 @@ class Head:
     def proves_extension_of(self, earlier):
         """Its own proof shows that it extends an earlier head; of one size it is the same head, and nothing to be proved."""
         if self.size == earlier.size:
-            return (self.archive, self.root, self.chain, self.at) == (earlier.archive, earlier.root, earlier.chain, earlier.at)
+            return self.archive == earlier.archive and self.is_same_log(earlier)
         return bool(self.extends and self.archive == earlier.archive and self.extends[:2] == (earlier.size, earlier.root) and
                     self.begins_with(*self.extends) and self.at >= earlier.at)
 
@@ -624,13 +698,13 @@ def verify_head(head, name, heads, known, public_key, tell):
             yield f"{name}: the head of {counted(other.size)} does not prove that it extends it"
         elif other.size <= head.size and not leads_to(head, other, known):
             yield f"{name}: does not prove that it extends the head of {counted(other.size)}"
-    tell(f"{counted(head.size)}, {head.at.decode()}; extends " +
+    tell(f"{counted(head.size)}, {head.time_in_words()}; extends " +
          (f"a head of {counted(head.extends[0])}" if head.extends else "no earlier head"))
     tell(signer_in_words(head.signature, public_key, False))
     newest = max(heads, key=lambda one: one.size, default=head)
     if newest.size > head.size:
         tell(f"a newer head is given, of {counted(newest.size)}, {newest.at.decode()}")
-    for line in times_to_come([("the head", head.at), *(("a given head", one.at) for one in heads)]):
+    for line in times_to_come([("the head", head.time), *(("a given head", one.time) for one in heads)]):
         tell(line)
 
 
@@ -717,7 +791,7 @@ def findings_of(database, heads, tell):
     if hashlib.sha256(b"\n".join(lines)).hexdigest() != SCHEMA_SHA256:
         yield "tables, indices or triggers are not those of an archive"
 
-    rules, leaves, hashes, needed, drafts = Rules(), [], [], {}, {}
+    rules, clocks, leaves, hashes, needed, drafts = Rules(), Clocks(), [], [], {}, {}
     prev = bytes(32)
     for row in database.execute(f"SELECT {', '.join(FIELDS)} FROM log NOT INDEXED ORDER BY seq"):
         entry = {name: value if name == "seq" else bytes(value or b"") for name, value in zip(FIELDS, row)}
@@ -731,20 +805,25 @@ def findings_of(database, heads, tell):
         wrong = rules.accept(entry)
         if wrong:
             yield f"{name}: {wrong}"
+        wrong = clocks.take(entry)
+        if wrong:
+            yield f"{name}: {wrong}"
         if entry["kind"] == b"drafted":
             drafts.setdefault((entry["certificate"], entry["record"]), entry["seq"])
         for digest in contents_named_by(entry):
             needed.setdefault(digest, (entry["seq"], drafts[entry["certificate"], entry["record"]]))
         prev = entry["hash"]
         leaves.append(leaf(prev))
-        hashes.append((prev, entry["at"]))
+        hashes.append((prev, entry["at"], clock_of(entry)))
     if not leaves:
         yield "the log is empty"
         return
     if rules.due:
         yield f"\"{rules.due[0]}\" {rules.due[1]} is missing at the end of the log"
-    for line in times_to_come([("the last entry", hashes[-1][1]), *(("a given head", one.at) for one in heads)]):
+    for line in times_to_come([("the last entry", hashes[-1][1]), *(("a given head", one.time) for one in heads)]):
         tell(line)
+    if clocks.in_words():
+        tell(clocks.in_words())
     yield from faults_of_list(database, rules.lives)
     roots = Roots(leaves)
     kept = set()
@@ -767,7 +846,7 @@ def findings_of(database, heads, tell):
             yield f"head of {counted(head.size)}: one of another archive"
         elif head.size > len(leaves):
             yield f"head of {counted(head.size)}: the archive has {counted(len(leaves))}"
-        elif roots.first(head.size) != head.root or hashes[head.size - 1] != (head.chain, head.at):
+        elif roots.first(head.size) != head.root or hashes[head.size - 1] != (head.chain, head.at, head.clock or hashes[head.size - 1][2]):
             yield f"head of {counted(head.size)}: the entries of the archive up to there are others"
 
 
@@ -807,7 +886,7 @@ class States:
         return numbers
 
     def faults(self, head, lives, entries):
-        if not is_time(self.at.encode()) or self.at.encode() < head.at:
+        if not is_time(self.at.encode()) or self.at.encode() < head.time:
             yield "statement of states: its time is none, or before that of the head"
         if head.signature is None or head.signature[0] != self.signature[0]:
             yield "statement of states: is signed with another key than the head"
@@ -854,7 +933,7 @@ def faults_of_head(other, head, known, proved):
         return later.proves_extension_of(earlier) or (later is head and (earlier.size, earlier.root) in proved)
 
     name = f"head of {counted(other.size)}, {other.at.decode()}"
-    if (other.archive != head.archive or (other.size == head.size and (other.root, other.chain, other.at) != (head.root, head.chain, head.at)) or
+    if (other.archive != head.archive or (other.size == head.size and not head.is_same_log(other)) or
             (other.at > head.at if other.size < head.size else other.at < head.at)):
         yield f"{name}: the evidence is of another archive, or of a log that was rewritten"
     elif other.size != head.size and not (leads_to(head, other, known, proves) if other.size < head.size else leads_to(other, head, known, proves)):
@@ -886,7 +965,7 @@ def verify_evidence(value, heads, public_key, verdict, known=()):
         if entry_hash(entry) != entry["hash"]:
             yield f"{name}: its fields give another hash than the one it has"
         if ((seq == 1) != (entry["hash"] == head.archive) or entry["at"] > head.at or
-                (seq == head.size and (entry["hash"], entry["at"]) != (head.chain, head.at)) or
+                (seq == head.size and (entry["hash"], entry["at"], clock_of(entry) if head.clock else b"") != (head.chain, head.at, head.clock)) or
                 root_of_proof(entry["hash"], seq - 1, head.size, proof) != head.root):
             yield f"{name}: its proof does not lead to the head"
         wrong = rules.accept(entry)
@@ -933,7 +1012,7 @@ def evidence_in_words(verdict, is_sound, heads, public_key):
     words = chain[0][1] if chain else "of unknown state"
     for later, state in chain[1:]:
         words += f", see {later}, which is {state or 'of unknown state'}"
-    when = f", as the archive stood at {head.at.decode()} ({counted(head.size)})"
+    when = f", as the archive stood at {head.time_in_words()} ({counted(head.size)})"
     if is_sound and public_key and verdict["states"]:
         yield f"certificate {number}, {words}{when}"
     else:
@@ -948,7 +1027,7 @@ def evidence_in_words(verdict, is_sound, heads, public_key):
     if newest.size > head.size:
         yield f"a newer head is given, of {counted(newest.size)}, {newest.at.decode()}: what came since is not in this evidence"
     states = [("the statement of states", verdict["states"].at.encode())] if verdict["states"] else []
-    yield from times_to_come([("the head", head.at), *states, *(("a given head", one.at) for one in heads)])
+    yield from times_to_come([("the head", head.time), *states, *(("a given head", one.time) for one in heads)])
 
 
 def compared_document(file, verdict):

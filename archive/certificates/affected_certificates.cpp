@@ -18,8 +18,11 @@
 #include "jobs/file_source.h"
 #include "json/canonical_json.h"
 #include "json/members.h"
+#include "reports/forms/asset_files.h"
+#include "reports/forms/render.h"
 #include "reports/record/make/certificate/amended_record.h"
 #include "reports/record/record_value.h"
+#include "reports/wording.h"
 #include "text/csv_field.h"
 #include "text/lists.h"
 #include "text/numbers.h"
@@ -313,6 +316,32 @@ std::vector<evaluation::RecordChange> texts_that_change(const reports::Evaluatio
     return texts;
 }
 
+/// What the program says of the changes, in all languages of the document, which prints it.
+nlohmann::ordered_json changes_in_words(const reports::EvaluationRecord& record, const Correction& correction,
+                                        bool is_of_results) {
+    const std::vector<std::string> languages = record.certificate  ? record.certificate->data.languages
+                                               : record.comparison ? record.comparison->languages
+                                                                   : std::vector<std::string>();
+    const auto worded = [&](const std::vector<std::string>& of_document) {
+        reports::RenderAssets assets;
+        assets.templates = correction.templates;
+        assets.languages = of_document;
+        const reports::Wording words = reports::read_wording(assets);
+        const reports::Wording::Values values{{"standard", correction.standard}};
+        const reports::Text text = is_of_results ? words.filled("drafted_amendment", "results", values)
+                                                 : words.filled("drafted_amendment", "statements", values);
+        return text.first();
+    };
+    if (languages.size() < 2) {
+        return worded(languages);
+    }
+    nlohmann::ordered_json all;
+    for (const std::string& language : languages) {
+        all[language] = worded({language});
+    }
+    return all;
+}
+
 /// Job, certificate data and all files of an amendment.
 /// \return none where the job cannot be written beside each other again
 std::vector<outputs::OutputFile> drafted_amendment(const AffectedCertificate& one, const std::string& original,
@@ -345,15 +374,12 @@ std::vector<outputs::OutputFile> drafted_amendment(const AffectedCertificate& on
         return {};
     }
     certificate["number"] = one.draft_number;
-    certificate["amendment"] = {
-        {"kind", "amended"},
-        {"number", one.certificate.number},
-        {"reason", correction.reason},
-        {"changes",
-         {(one.recalculated->rerun.is_negative() ? "Results calculated again with the corrected standard "
-                                                 : "What is stated of the corrected standard ") +
-          correction.standard}},
-        {"record", record_name}};
+    certificate["amendment"] = {{"kind", "amended"},
+                                {"number", one.certificate.number},
+                                {"reason", correction.reason},
+                                {"changes", nlohmann::ordered_json::array({changes_in_words(
+                                                corrected, correction, one.recalculated->rerun.is_negative())})},
+                                {"record", record_name}};
     if (inside) {
         job["certificate"] = certificate;
     } else {
@@ -416,6 +442,10 @@ Recalculated recalculated(const std::string& number, const std::string& waits_fo
     return done;
 }
 
+bool is_before_issue(const std::string& state) {
+    return state == "drafted" || state == "reviewed" || state == "authorised";
+}
+
 bool needs_amendment(const AffectedCertificate& one) {
     return one.recalculated && one.recalculated->states_otherwise() && one.certificate.state == "issued";
 }
@@ -429,7 +459,17 @@ void work_out(AffectedCertificate& one, const std::string& original, const Corre
         one.recalculated = std::move(done.result);
         corrected = std::move(done.corrected);
     }
-    if (!drafts.write || !needs_amendment(one)) {
+    if (!drafts.write) {
+        return;
+    }
+    if (!needs_amendment(one)) {
+        one.no_draft =
+            !one.recalculated->states_otherwise() ? ""
+            : is_before_issue(one.certificate.state)
+                ? "it is " + one.certificate.state +
+                      ", and not issued: evaluate its job with the corrected "
+                      "standard, and add the record"
+                : "it is " + one.certificate.state + ": where what took its place changes, too, that is amended";
         return;
     }
     if (!corrected) {  // another machine has calculated it
@@ -440,6 +480,8 @@ void work_out(AffectedCertificate& one, const std::string& original, const Corre
     if (!draft.empty()) {
         drafts.write(draft);
         one.draft_folder = one.draft_name;
+    } else {
+        one.no_draft = "its job cannot be written with its files beside it: amend it by hand";
     }
 }
 
@@ -624,6 +666,7 @@ std::string affected_text(const std::vector<AffectedCertificate>& affected) {
         if (one.recalculated && one.recalculated->rerun.not_evaluated) {
             text += "    " + text::visible(one.recalculated->rerun.not_evaluated->what, 200) + "\n";
         }
+        text += one.no_draft.empty() ? "" : "    no draft: " + one.no_draft + "\n";
         constexpr std::size_t k_most_texts = 3;
         for (std::size_t i = 0; one.recalculated && i < std::min(one.recalculated->texts.size(), k_most_texts); ++i) {
             const evaluation::RecordChange& change = one.recalculated->texts[i];
@@ -658,6 +701,7 @@ std::string affected_json(const std::vector<AffectedCertificate>& affected, cons
                              {"shift", nullptr},
                              {"changes", nlohmann::json::array()},
                              {"draft", one.draft_folder},
+                             {"no_draft", one.no_draft},
                              {"cannot_say", ""}};
         if (one.recalculated) {
             const evaluation::RerunRecord& rerun = one.recalculated->rerun;

@@ -51,7 +51,8 @@ struct AffectedCertificate {
 
     std::optional<Recalculation> recalculated = {};
     std::string draft_folder =
-        {};  ///< of the amendment, after recalculate(); "" where none is needed, or nobody writes it
+        {};                     ///< of the amendment, after recalculate(); "" where none is needed, or nobody writes it
+    std::string no_draft = {};  ///< why there is none, where something changes and drafts are written; "" else
 };
 
 /// Every certificate of an archive whose record names the standard, with a day of use in the period or without any, and

@@ -149,7 +149,7 @@ std::string time_to_come(const std::string& what, const std::string& at, const s
 std::vector<std::string> TrustedHeads::times_to_come() const {
     std::vector<std::string> lines;
     for (const Head& head : heads_) {
-        add_line(lines, time_to_come("a given head", head.at, latest_));
+        add_line(lines, time_to_come("a given head", time_of(head), latest_));
     }
     return lines;
 }
@@ -211,7 +211,7 @@ VerifiedFile verified_evidence(const std::string& text, const std::string& file,
     const auto newest = std::max_element(heads.all().begin(), heads.all().end(),
                                          [](const auto& a, const auto& b) { return a.size < b.size; });
     std::vector<std::string> to_come;
-    add_line(to_come, time_to_come("the head", head.at, heads.latest()));
+    add_line(to_come, time_to_come("the head", time_of(head), heads.latest()));
     if (evidence.states) {
         add_line(to_come, time_to_come("the statement of states", evidence.states->at, heads.latest()));
     }
@@ -234,7 +234,8 @@ VerifiedFile verified_evidence(const std::string& text, const std::string& file,
                  {"contents", evidence.contents.size()},
                  {"times_to_come", to_come},
                  {"findings", as_json(said.findings)}};
-    const std::string when = ", as the archive stood at " + head.at + " (" + text::count_of(head.size, "entry") + ")";
+    const std::string when =
+        ", as the archive stood at " + time_in_words(head) + " (" + text::count_of(head.size, "entry") + ")";
     std::vector<std::string> lines = {"certificate " + text::one_line(evidence.certificate) +
                                           (is_proved      ? ", "
                                            : said.sound() ? ": these entries show it "
@@ -288,7 +289,7 @@ VerifiedFile verified_head(const std::string& text, const std::string& file, con
         }
     }
     std::vector<std::string> to_come;
-    add_line(to_come, time_to_come("the head", head.at, heads.latest()));
+    add_line(to_come, time_to_come("the head", time_of(head), heads.latest()));
     for (std::string& line : heads.times_to_come()) {
         to_come.push_back(std::move(line));
     }
@@ -303,7 +304,7 @@ VerifiedFile verified_head(const std::string& text, const std::string& file, con
                  {"trusted", heads.has_key() && said.sound()},
                  {"findings", as_json(said.findings)}};
     said.text = text::one_line(file) + ": " + (said.sound() ? "sound" : "NOT SOUND") + "\n  " +
-                text::count_of(head.size, "entry") + ", " + head.at +
+                text::count_of(head.size, "entry") + ", " + time_in_words(head) +
                 (head.extends ? "; extends a head of " + text::count_of(head.extends->size, "entry")
                               : "; extends no earlier head") +
                 "\n  " + signer_in_words(head.signature, heads.key(), false) + "\n";
@@ -338,6 +339,11 @@ VerifiedFile verified_store(Store& store, const TrustedHeads& heads,
                  {"heads", heads.all().size()},
                  {"trusted", heads.has_key() && !heads.all().empty() && heads.findings().empty()},
                  {"head", head},
+                 {"clocks_set_back",
+                  {{"entries", verification.set_back.entries},
+                   {"entries_ahead", verification.set_back.ahead},
+                   {"certificates", verification.set_back.certificates},
+                   {"earliest", verification.set_back.earliest}}},
                  {"times_to_come", to_come},
                  {"findings", as_json(said.findings)}};
     said.text = text::one_line(store.name()) + ": " + (said.sound() ? "sound" : "NOT SOUND") + "; " +
@@ -348,6 +354,9 @@ VerifiedFile verified_store(Store& store, const TrustedHeads& heads,
     if (verification.head) {
         said.text += "  head " + encoding::hexadecimal(verification.head->root) + " of " +
                      text::one_line(verification.head->at) + "\n";
+    }
+    if (const std::string set_back = in_words(verification.set_back); !set_back.empty()) {
+        said.text += "  " + set_back + "\n";
     }
     if (heads.all().empty()) {
         said.text +=

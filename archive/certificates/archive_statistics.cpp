@@ -385,7 +385,9 @@ ArchiveStatistics statistics_of(Archive& archive) {
     archive.each_record(
         [&](const std::map<std::string, CertificateLife>& lives) { all.begin(lives); },
         [&](const ListedCertificate& certificate, const std::string& bytes) { all.look_at(certificate, bytes); });
-    return std::move(all).finish();
+    ArchiveStatistics found = std::move(all).finish();
+    found.set_back = archive.times().set_back();
+    return found;
 }
 
 std::string statistics_text(const ArchiveStatistics& statistics) {
@@ -395,6 +397,9 @@ std::string statistics_text(const ArchiveStatistics& statistics) {
                        counts_as_text("By method", statistics.by_method) +
                        counts_as_text("By kind of evaluation", statistics.by_kind);
     text += "Amendments: " + std::to_string(statistics.amendments) + "\n";
+    if (const std::string set_back = in_words(statistics.set_back); !set_back.empty()) {
+        text += "Clocks that were ahead: " + set_back + "\n";
+    }
     for (const ArchivedScores& one : statistics.scores) {
         text += &one == statistics.scores.data() ? "|E_n| of comparisons: scores, above 1, largest\n" : "";
         text += "  " + text::visible(one.number, 40) + "  " + text::visible(one.day, 20) + "  " +
@@ -475,6 +480,11 @@ std::string statistics_json(const ArchiveStatistics& statistics) {
                                           {"by_method", statistics.by_method},
                                           {"by_kind", statistics.by_kind},
                                           {"amendments", statistics.amendments},
+                                          {"clocks_set_back",
+                                           {{"entries", statistics.set_back.entries},
+                                            {"entries_ahead", statistics.set_back.ahead},
+                                            {"certificates", statistics.set_back.certificates},
+                                            {"earliest", statistics.set_back.earliest}}},
                                           {"not_read", statistics.not_read},
                                           {"scores", std::move(scores)},
                                           {"charts", std::move(charts)},

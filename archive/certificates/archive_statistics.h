@@ -56,6 +56,7 @@ struct ArchivedScores {
 /// What an archive says of the work of a laboratory. Numbers and drafts that have no record yet are counted by state only.
 struct ArchiveStatistics {
     std::map<std::string, std::size_t> by_state, by_kind, by_method;
+    LogTimes::SetBack set_back;  ///< entries after clocks that were ahead: months of issue may be those of such a clock
     std::map<std::string, std::size_t> by_month;  ///< of issue by the log, "2026-11"; certificates that were issued
     std::map<std::string, std::size_t> by_authoriser;  ///< person of the log; certificates that were issued
     std::size_t amendments = 0;                        ///< certificates that amend or replace another one

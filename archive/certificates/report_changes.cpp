@@ -4,10 +4,12 @@
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "certificate/statement_of_uncertainty.h"
 #include "gum/rounding.h"
@@ -24,8 +26,85 @@ std::string_view key_of(std::string_view place) {
     return place.substr(place.rfind('/') + 1);
 }
 
-/// A record, leaf by leaf; what documents do not print of names is not in it.
-json leaves_of(const reports::EvaluationRecord& record, bool names_may_be_told) {
+/// The names of the rows of a list, by some of their members.
+/// \return none where a row has none, or two have one
+std::optional<std::vector<std::string>> names_in(const json& list, const std::vector<const char*>& members) {
+    std::vector<std::string> names;
+    std::set<std::string> seen;
+    for (const json& row : list) {
+        std::string name;
+        for (const char* const member : members) {
+            const std::string part = row.value(member, "");
+            name += name.empty() || part.empty() ? part : ", " + part;
+        }
+        if (name.empty() || !seen.insert(name).second) {
+            return std::nullopt;
+        }
+        names.push_back(std::move(name));
+    }
+    return names;
+}
+
+json named(const json& list, const std::vector<std::string>& names) {
+    json rows = json::object();
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        rows[names[i]] = list[i];
+    }
+    return rows;
+}
+
+/// Rows of participants stand by their codes in both records, not by their number: one that goes, comes or stands elsewhere would be
+/// a change of every row behind it.
+/// \return the names of both, where they are names
+std::optional<std::array<std::vector<std::string>, 2>> name_rows(json& before, json& after,
+                                                                 const std::vector<const char*>& members) {
+    if (!before.is_array() || !after.is_array()) {
+        return std::nullopt;
+    }
+    std::optional<std::vector<std::string>> was = names_in(before, members);
+    std::optional<std::vector<std::string>> is = names_in(after, members);
+    if (!was || !is) {
+        return std::nullopt;
+    }
+    before = named(before, *was);
+    after = named(after, *is);
+    return std::array{std::move(*was), std::move(*is)};
+}
+
+/// Those of the one that are in the other, too, in their order.
+std::string common_names(const std::vector<std::string>& names, const std::vector<std::string>& others) {
+    std::string text;
+    for (const std::string& name : names) {
+        if (std::ranges::find(others, name) != others.end()) {
+            text += (text.empty() ? "" : ", ") + name;
+        }
+    }
+    return text;
+}
+
+void name_rows_of_participants(json& before, json& after) {
+    name_rows(before["points"], after["points"], {"participant", "item"});
+    for (std::size_t i = 0; i < std::min(before["items"].size(), after["items"].size()); ++i) {
+        json& was = before["items"][i];
+        json& is = after["items"][i];
+        name_rows(was["pairs"], is["pairs"], {"first", "second"});
+        name_rows(was["weights"], is["weights"], {"participant"});
+    }
+    for (std::size_t i = 0; i < std::min(before["youden"].size(), after["youden"].size()); ++i) {
+        name_rows(before["youden"][i]["points"], after["youden"][i]["points"], {"participant"});
+    }
+    if (const auto names = name_rows(before["participants"], after["participants"], {"id"})) {
+        std::string was = common_names(names->front(), names->back());
+        std::string is = common_names(names->back(), names->front());
+        if (was != is) {
+            before["order_of_participants"] = std::move(was);
+            after["order_of_participants"] = std::move(is);
+        }
+    }
+}
+
+/// A record; what documents do not print of names is not in it.
+json told_of(const reports::EvaluationRecord& record, bool names_may_be_told) {
     reports::EvaluationRecord told = record;
     reports::Comparison& comparison = *told.comparison;
     comparison.budget_files.clear();  // the name of a file tells whose it is
@@ -42,7 +121,7 @@ json leaves_of(const reports::EvaluationRecord& record, bool names_may_be_told) 
     for (reports::YoudenDiagram& diagram : comparison.youden) {
         diagram.ellipse.clear();  // a curve, which is drawn of the numbers beside it
     }
-    return reports::to_json_value(told).flatten();
+    return reports::to_json_value(told);
 }
 
 /// Whether a report says what stands at a place of its record. Unrounded numbers are among it: it ends with a table of them.
@@ -122,8 +201,11 @@ const char* kind_of(const json& leaf, std::string_view place) {
 std::vector<certificate::Change> changes_of_report(const reports::EvaluationRecord& earlier,
                                                    const reports::EvaluationRecord& later) {
     const bool names_may_be_told = later.comparison->names_released;
-    const json before = leaves_of(earlier, names_may_be_told);
-    const json after = leaves_of(later, names_may_be_told);
+    json told_before = told_of(earlier, names_may_be_told);
+    json told_after = told_of(later, names_may_be_told);
+    name_rows_of_participants(told_before["comparison"], told_after["comparison"]);
+    const json before = told_before.flatten();
+    const json after = told_after.flatten();
     std::set<std::string> places;
     for (const json* const leaves : {&before, &after}) {
         for (const auto& [place, leaf] : leaves->items()) {

@@ -70,6 +70,9 @@ void add_texts(const nlohmann::json& part, std::string& texts) {
 std::vector<DocumentFact> facts_of(const certificate::CertificateData& data) {
     Facts facts;
     facts.add("number", data.number);
+    if (data.amendment) {
+        facts.add("number of the document that it amends or replaces,", data.amendment->number);
+    }
     facts.add("laboratory", data.laboratory.name);
     facts.add("customer", data.customer.name);
     facts.add("order number of the customer", data.customer.order);

@@ -271,10 +271,16 @@ def statements_and_trust(both, signed, heads):
     for key in ("state", "later", "certificate"):
         for index in range(len(signed["states"]["certificates"])):
             both.judge(f"another {key} in the statement", changed(signed, ("states", "certificates", index, key), set_to("another")), trust=True, sound=False)
-    told = both.judge("another time of the head", changed(unsigned, ("head", "at"), set_to("2991-01-01T00:00:00Z")), heads=["same.json"], sound=False)
+    later = changed(unsigned, ("head", "at"), set_to("2991-01-01T00:00:00Z"))
+    later["head"].pop("clock", None)  # by which it would go
+    told = both.judge("another time of the head", later, heads=["same.json"], sound=False)
     expect("the head is of 2991-01-01T00:00:00Z, which has not come" in told, f"a head of a time that has not come: {told}")
     told = both.judge("a statement of a time that has not come", changed(signed, ("states", "at"), set_to("2991-01-01T00:00:00Z")), sound=False)
     expect("the statement of states is of 2991-01-01T00:00:00Z, which has not come" in told, f"a statement of a time that has not come: {told}")
+    # What the clock of the last entry said, of a head that nobody signed, and of one that was: a head states it where its entry does.
+    for text in ("2025-11-28T12:37:25Z", signed["head"]["at"], "2991-01-01T00:00:00Z", "", None, 1, "2025-02-30T00:00:00Z"):
+        both.judge(f"a clock {text} in an unsigned head", changed(unsigned, ("head", "clock"), set_to(text)), sound=None if text == "2025-11-28T12:37:25Z" else False)
+        both.judge(f"a clock {text} in a signed head", changed(signed, ("head", "clock"), set_to(text)), trust=True, sound=False)
     for text in ("2026-11-28T12:37:25Z (17 entries)\n  signed: yes", "\x1b[2J", "", "never", "9998-02-30T00:00:00Z", "9998-11-28T24:00:00Z",
                  "9998-11-28T23:59:60Z"):
         both.judge("the time of the head is none", changed(unsigned, ("head", "at"), set_to(text)), sound=False)

@@ -7,12 +7,14 @@
 - every flipped bit that changes what is stored is found; one that changes nothing that is stored may be found, too
 - the kinds of attacks below are found, those that need a head only with one
 - times that no clock says are found, in entries and in what their own clock said, and no others
+- clocks that were set back further than the log once went ahead are found, and no others
 - both verifiers have the same verdict on all of them
 """
 
 import argparse
 import calendar
 import collections
+import datetime
 import importlib.util
 import json
 import pathlib
@@ -358,6 +360,47 @@ def times_of_clocks(judges, driver, folder, rng, rounds):
     expect(len(counts) == 4 and min(counts.values()) > rounds / 20, f"times of chance: {counts}")
 
 
+def clocks_set_back(judges, driver, folder, rng, rounds):
+    """A log of an entry a day, one of a time ahead, and one that says what its clock said: how far may that go back?"""
+    store, spoiled, counts = folder / "set_back.archive", folder / "spoiled.archive", collections.Counter()
+    seed, day = 100, datetime.timedelta(days=1)
+    while not store.exists() or prints_heads(store):
+        store.unlink(missing_ok=True)
+        subprocess.run([driver, "make", store, str(seed), "20"], check=True)
+        seed += 1
+    begun = datetime.datetime(2026, 1, 1, 12)
+
+    def text_of(time):
+        return time.strftime("%Y-%m-%dT%H:%M:%SZ")
+
+    for round_ in range(rounds):
+        pause, ahead = rng.choice([1, 3, 20]), rng.choice([0, 5, 40, 400])
+        back = rng.choice([0.5, 1.5, 3.5, 10, 30, 60, 500])  # days before the day of the last entry that is right
+
+        def change(_rng, db):
+            log = entries(db)
+            wrong = next(i for i in range(45, len(log)) if log[i]["kind"] != "numbered" and log[i - 1]["kind"] != "issued")
+            for index, entry in enumerate(log):
+                time = begun + day * (index + (pause - 1 if index > 40 else 0))
+                if index >= wrong:
+                    time = begun + day * (wrong + pause - 1 + ahead)
+                entry["at"], body = text_of(time), json.loads(entry["body"])
+                if index > wrong:
+                    body["clock"] = text_of(begun + day * (wrong - 1 + pause - 1) - day * back)
+                    entry["body"] = json.dumps(body)
+            rewrite(db, log)
+            list_again(db)
+
+        shutil.copy(store, spoiled)
+        attack(spoiled, change, rng)
+        # What the log went ahead by at once, and a day, explain how far the clock stands before the last entry.
+        sound = ahead + 1 + back <= max(pause, ahead + 1) + 1
+        expect(not (sound and back > pause + 1), "a rule of the test: more than the longest pause")
+        judges.agree(spoiled, None, f"{pause} days of pause, {ahead} ahead, {back} back, round {round_}", sound)
+        counts[sound] += 1
+    expect(len(counts) == 2, f"clocks that were set back: {counts}")
+
+
 def refused_by_triggers(path):
     """Plain SQL on an archive as it is."""
     for name, sql in {
@@ -449,6 +492,7 @@ def main():
             judges.agree(other_store, base_head, "a head of another archive", sound=False)
 
         times_of_clocks(judges, options.driver, folder, rng, 60)
+        clocks_set_back(judges, options.driver, folder, rng, 20)
 
         small = folder / "small.archive"
         subprocess.run([options.driver, "make", small, str(options.seed + 7), "12"], check=True)

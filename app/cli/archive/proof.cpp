@@ -71,14 +71,16 @@ archive::Head::Signature signature_of(const std::string& bytes, const std::strin
 
 void sign(archive::Head& head, const std::string& key) {
     if (!key.empty()) {
-        if (head.at > latest_time()) {
+        if (archive::time_of(head) > latest_time()) {
             throw gum::StorageError(gum::Diagnostic{
                 .code = "GC-ARCHIVE-0066",
                 .where = "the clock of this machine",
                 .what = "says " + time_now() + ", and the last entry is of " + head.at,
                 .rule = "what is signed speaks of a time that has come",
                 .action =
-                    "look at a calendar: set the clock right, or wait; without --sign the head is written as it is"});
+                    "look at a calendar: set the clock right; where it is, and was ahead, write an entry with --today, "
+                    "such "
+                    "as that of gumcert archive backup, and sign then; without --sign the head is written as it is"});
         }
         head.signature = signature_of(archive::signed_bytes(head), key);
     }
@@ -202,7 +204,7 @@ ExitCode export_certificate(const ArchiveOptions& options, const CommonOptions& 
     }
     sign(evidence.head, options.sign);
     if (!options.sign.empty()) {
-        evidence.states = archive::states_in(evidence, std::max(time_now(), evidence.head.at));
+        evidence.states = archive::states_in(evidence, std::max(time_now(), archive::time_of(evidence.head)));
         evidence.states->signature =
             signature_of(archive::signed_bytes(*evidence.states, evidence.head, evidence.certificate), options.sign);
     }

@@ -206,6 +206,13 @@ TYPED_TEST(ArchiveLaws, GoesOnAfterAClockThatWasAhead) {
     EXPECT_EQ(next.certificate, "EX-2026-002") << "of the year that it is";
     EXPECT_EQ(next.at, wrong);
     EXPECT_EQ(nlohmann::json::parse(next.body)["clock"], now);
+    const Head head = this->archive_->head();
+    EXPECT_EQ(head.at, wrong);
+    EXPECT_EQ(head.clock, now);
+    EXPECT_EQ(
+        code_of([&] { (void)this->archive_->take_number(at("A. Author", "2025-12-31T12:00:00Z", "2025-12-31")); }),
+        "GC-ARCHIVE-0032")
+        << "a number of the last year";
     (void)this->archive_->advance("EX-2027-001", "withdrawn", at("R. Reviewer", now, "2026-01-02"));
     Draft amendment = sample_draft(
         this->archive_->take_amendment_number(number, at("A. Author", now, "2026-01-02")).entry.certificate, "2");
@@ -217,12 +224,40 @@ TYPED_TEST(ArchiveLaws, GoesOnAfterAClockThatWasAhead) {
     EXPECT_EQ(this->archive_->life(number).state, "superseded");
     (void)this->archive_->change_settings(this->archive_->settings(), at("K. Keeper", now, "2026-01-02"));
     EXPECT_EQ(this->archive_->take_number(at("A. Author", "2027-01-11T08:00:00Z")).entry.certificate, "EX-2027-002");
-    const Verification verification = verify_store(*this->store_);
+    const Verification verification = verify_store(*this->store_, {head});
     EXPECT_TRUE(verification.sound()) << verification.findings.front().what;
     EXPECT_EQ(verification.head->size, this->archive_->head().size);
+    EXPECT_EQ(verification.set_back.ahead, 1);
+    Head other = head;
+    other.clock.clear();
+    EXPECT_TRUE(verify_store(*this->store_, {other}).sound()) << "a head from before clocks were stated";
+    other.clock = "2026-01-02T08:00:01Z";
+    EXPECT_FALSE(verify_store(*this->store_, {other}).sound());
     for (const std::string& one : {number, amendment.number}) {
         EXPECT_TRUE(verify_evidence(evidence_of(*this->store_, one, std::nullopt), {}, {}).findings.empty()) << one;
     }
+}
+
+/// Evidence whose last entry is of a clock that was set right: its head says what that said, and the statement goes by it.
+TYPED_TEST(ArchiveLaws, GivesEvidenceAfterAClockThatWasAhead) {
+    Request request = this->by("R. Reviewer", "because");
+    const std::string number = this->issued();
+    request.at = request.confirmed_day = "2027-01-10T12:00:00Z";
+    (void)this->archive_->change_settings(this->archive_->settings(), request);
+    request.at = request.confirmed_day = "2026-01-02T08:00:00Z";
+    (void)this->archive_->advance(number, "withdrawn", request);
+    Evidence evidence = evidence_of(*this->store_, number, std::nullopt);
+    EXPECT_EQ(evidence.head.clock, request.at);
+    const auto is_sound = [&](const std::string& clock, const std::string& stated) {
+        evidence.head.clock = clock;
+        evidence.states = states_in(evidence, stated);
+        return verify_evidence(evidence, {}, {}).findings.size() == 1;  // no key has signed it
+    };
+    EXPECT_TRUE(is_sound(request.at, request.at));
+    EXPECT_FALSE(is_sound(request.at, "2026-01-02T07:59:59Z")) << "before its head";
+    EXPECT_FALSE(is_sound("2026-01-02T08:00:01Z", "2026-01-03T08:00:00Z")) << "the entry says otherwise";
+    EXPECT_TRUE(is_sound("", evidence.head.at)) << "as it was written before";
+    EXPECT_FALSE(is_sound("", request.at));
 }
 
 /// An amendment was wrong itself, and is taken back: the next one takes its place, or the original is withdrawn as well.

@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "archive/log_times.h"
 #include "encoding/sha2.h"
 #include "tests/support/archive_folder.h"
 
@@ -29,6 +30,30 @@ TEST(ArchiveHead, IsReadAsItWasWritten) {
     head.signature = Head::Signature{std::string(32, '\3'), std::string(64, '\4')};
     EXPECT_EQ(head_from_json(to_json(head), "head.json"), head);
     EXPECT_EQ(signed_bytes(head), unsigned_text);
+}
+
+/// After a clock that was ahead a head says what the clock of its last entry said; others have the bytes that they ever had.
+TEST(ArchiveHead, SaysWhatTheClockSaid) {
+    Head head = sample_head();
+    EXPECT_EQ(signed_bytes(head).find("clock"), std::string::npos);
+    EXPECT_EQ(time_of(head), head.at);
+    EXPECT_EQ(time_in_words(head), head.at);
+    head.clock = "2026-10-24T18:52:52Z";
+    EXPECT_EQ(head_from_json(to_json(head), "head.json"), head);
+    EXPECT_NE(signed_bytes(head).find(head.clock), std::string::npos) << "it is signed";
+    EXPECT_EQ(time_of(head), head.clock);
+    EXPECT_EQ(time_in_words(head), "2026-10-24T18:52:52Z (by its log 2026-11-24T18:52:52Z, of a clock that was ahead)");
+    EXPECT_TRUE(is_same_log(head, sample_head())) << "a head from before it was stated";
+    Head other = head;
+    other.clock = "2026-10-24T18:52:51Z";
+    EXPECT_FALSE(is_same_log(head, other));
+    EXPECT_FALSE(proves_extension(head, other));
+    for (const nlohmann::json& none : {nlohmann::json(), nlohmann::json(1), nlohmann::json(""), nlohmann::json(head.at),
+                                       nlohmann::json("2026-10-24"), nlohmann::json("2027-10-24T18:52:52Z")}) {
+        nlohmann::json value = nlohmann::json::parse(to_json(head));
+        value["clock"] = none;
+        EXPECT_EQ(test::code_of([&] { (void)head_from_json(value.dump(), "head.json"); }), "GC-ARCHIVE-0049") << none;
+    }
 }
 
 TEST(ArchiveHead, IsRefusedWhereItHasAnotherForm) {

@@ -93,5 +93,27 @@ TEST(LogTexts, TellWhatBecameOfACertificate) {
     EXPECT_EQ(test::code_of([&] { (void)history_text(archive, "N-2"); }), "GC-ARCHIVE-0026");
 }
 
+/// Of each entry: whether its clock was set right after it was ahead, or was ahead, as a later entry says, also of others.
+TEST(LogTexts, TellOfClocksThatWereAhead) {
+    const test::StoreFolder folder;
+    const auto by = [](const std::string& at) {
+        return Request{.actor = "R. Lin", .at = at, .request_key = "", .why = "w", .confirmed_day = at.substr(0, 10)};
+    };
+    const auto store = create_store(folder.file().string(), first_entry({.four_eyes = false, .numbering = ""},
+                                                                        "gumcert", "1", by("2026-01-01T00:00:00Z")));
+    Archive archive(*store);
+    (void)archive.draft(test::sample_draft("N-1"), by("2026-01-02T00:00:00Z"));
+    (void)archive.advance("N-1", "reviewed", by("2026-02-01T00:00:00Z"));
+    EXPECT_EQ(history_text(archive, "N-1").find("clock"), std::string::npos);
+    (void)archive.draft(test::sample_draft("N-2"), by("2026-01-03T00:00:00Z"));
+    EXPECT_THAT(history_text(archive, "N-1"),
+                HasSubstr("  2026-02-01T00:00:00Z (a later entry says that this clock was ahead)  reviewed "));
+    EXPECT_THAT(history_text(archive, "N-1"), HasSubstr("  2026-01-02T00:00:00Z  drafted "));
+    EXPECT_THAT(history_text(archive, "N-2"),
+                HasSubstr("  2026-02-01T00:00:00Z (the clock said 2026-01-03T00:00:00Z)  drafted "));
+    EXPECT_EQ(history_json(archive, "N-1")["entries"][0]["clock_was_ahead"], false);
+    EXPECT_EQ(history_json(archive, "N-1")["entries"][1]["clock_was_ahead"], true);
+}
+
 }  // namespace
 }  // namespace gumcert::archive

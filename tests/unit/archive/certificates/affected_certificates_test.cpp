@@ -332,6 +332,7 @@ TEST_F(ArchiveOfStandards, AreSameWhereTheyWouldStateTheSame) {
                   stated(evaluated()) == stated(record))
             << pointer << " " << outcome;
         EXPECT_EQ(found->draft_folder.empty(), outcome == "same") << pointer;
+        EXPECT_EQ(found->no_draft, "") << pointer;
         if (outcome == "text") {
             ++texts;
             EXPECT_EQ(affected[0].certificate.number, "EX-2026-0042") << "before what cannot be said";
@@ -340,6 +341,51 @@ TEST_F(ArchiveOfStandards, AreSameWhereTheyWouldStateTheSame) {
         }
     }
     EXPECT_GE(texts, 2U) << "certificate and issuer of the calibration in use";
+}
+
+/// Of each certificate that changes there is a draft, or the list says why there is none.
+TEST_F(ArchiveOfStandards, HaveADraftOrAReason) {
+    const std::filesystem::path folder = folder_.file("laboratory");
+    std::filesystem::copy(k_affected_tree / "examples" / "laboratory", folder,
+                          std::filesystem::copy_options::recursive);
+    json data = json::parse(evaluation::read_file(folder / "end_gauge_certificate.json"), nullptr, true, true);
+    data["languages"] = {"en", "de"};
+    std::ofstream(folder / "end_gauge_certificate.json") << data.dump();
+    const std::string record =
+        reports::to_canonical_json(evaluation::evaluate_job(folder / "end_gauge.json", evaluation::CovarianceFile::none,
+                                                            1, k_affected_tree / "templates")
+                                       .record);
+    add("EX-2026-0042", record);
+    add("EX-1", record, false);
+    json corrected =
+        json::parse(evaluation::read_file(folder / "laboratory" / "standards" / "STD-017.json"), nullptr, true, true);
+    for (json& one : corrected["calibrations"]) {
+        one["certificate"] = "another";
+    }
+    std::vector<AffectedCertificate> affected = find_affected(archive_, {"STD-017", "2026-03-02", ""}, 1);
+    json changes;
+    recalculate(affected, archive_,
+                {.standard = "STD-017",
+                 .corrected = corrected.dump(),
+                 .reason = "r",
+                 .templates = k_affected_tree / "templates"},
+                1, {.write = [&](const std::vector<outputs::OutputFile>& files) {
+                    for (const outputs::OutputFile& file : files) {
+                        const json read = json::parse(file.bytes, nullptr, false);
+                        if (read.is_object() && read.contains("amendment")) {
+                            changes = read["amendment"]["changes"];
+                        }
+                    }
+                }});
+    ASSERT_EQ(affected.size(), 2U);
+    for (const AffectedCertificate& one : affected) {
+        EXPECT_TRUE(one.recalculated->states_otherwise()) << one.certificate.number;
+        EXPECT_NE(one.draft_folder.empty(), one.no_draft.empty()) << one.certificate.number;
+        EXPECT_EQ(one.no_draft.empty(), one.certificate.state == "issued");
+    }
+    EXPECT_NE(affected_text(affected).find("no draft: it is drafted, and not issued"), std::string::npos);
+    EXPECT_EQ(changes, json::parse(R"([{"en": "What is stated of the corrected standard STD-017",
+                                        "de": "Angaben zum berichtigten Normal STD-017"}])"));
 }
 
 /// A result that rests on more than the standard is moved by less of its own U than the standard by its.

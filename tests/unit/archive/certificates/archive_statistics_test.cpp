@@ -71,6 +71,25 @@ TEST_F(StatisticsOfAnArchive, CountsCertificates) {
     EXPECT_EQ(json::parse(statistics_json(found))["by_month"]["2026-01"], 2);
 }
 
+TEST_F(StatisticsOfAnArchive, TellsOfClocksThatWereAhead) {
+    add("C-1", record("CP-01", "2026-10-05", "M. Weber"));
+    EXPECT_EQ(statistics_text(statistics_of(archive_)).find("Clocks"), std::string::npos);
+    const auto withdraw = [&](const std::string& number, const std::string& at) {
+        (void)archive_.advance(
+            number, "withdrawn",
+            {.actor = "R. Reviewer", .at = at, .request_key = "", .why = "w", .confirmed_day = at.substr(0, 10)});
+    };
+    add("C-2", record("CP-01", "2026-10-05", "M. Weber"));
+    withdraw("C-2", "2026-03-01T00:00:00Z");
+    withdraw("C-1", "2026-01-03T00:00:00Z");
+    const ArchiveStatistics found = statistics_of(archive_);
+    EXPECT_NE(statistics_text(found).find("Clocks that were ahead: 1 entry of a clock that was set back"),
+              std::string::npos);
+    const json told = json::parse(statistics_json(found))["clocks_set_back"];
+    EXPECT_EQ(told,
+              (json{{"entries", 1}, {"entries_ahead", 1}, {"certificates", 2}, {"earliest", "2026-01-03T00:00:00Z"}}));
+}
+
 TEST_F(StatisticsOfAnArchive, ListsScoresOfComparisons) {
     json compared = record("CP-01", "2026-11-05", "M. Weber");
     compared["kind"] = "comparison";

@@ -86,6 +86,7 @@ const std::vector<Mutation>& mutations() {
         {"capability, not printed", [](json& j) { j["participants"][0]["cmc_U"] = 0.1000001; }},
         {"independent source", [](json& j) { j["independent_sources"] = {"std"}; }},
         {"participant out", [](json& j) { j["participants"].erase(6); }},
+        {"order of participants", [](json& j) { std::swap(j["participants"][0], j["participants"][1]); }},
         {"first participant out", [](json& j) { j["participants"].erase(0); }},
         {"result not consistent", [](json& j) { j["participants"][4]["value"] = 10.9; }},
         {"value in its last digits", [](json& j) { j["participants"][0]["value"] = 12.3100001; }},
@@ -125,6 +126,30 @@ TEST(ReportChanges, TellSomethingIfAndOnlyIfTheReportReadsOtherwise) {
     }
 }
 
+// Rows stand by the codes of their participants: where these stand in another order, no result has changed.
+TEST(ReportChanges, TellTheRowsOfAParticipantByItsCode) {
+    const reports::EvaluationRecord earlier = evaluated(base_job());
+    json job = base_job();
+    std::swap(job["participants"][0], job["participants"][4]);
+    const std::string order = listed(changes_of_report(earlier, evaluated(job)));
+    EXPECT_EQ(order.rfind("text /comparison/", 0), 0U) << order;
+    EXPECT_NE(order.find("/comparison/order_of_participants: A, B, C, E, F, X, D -> F, B, C, E, A, X, D\n"),
+              std::string::npos)
+        << order;
+    for (const char* const list : {"/comparison/points/", "/comparison/participants/", "/weights/"}) {
+        EXPECT_EQ(order.find(list), std::string::npos) << order;
+    }
+    job = base_job();
+    job["participants"].erase(6);
+    job["participants"].insert(job["participants"].begin(), json{{"id", "N"}, {"value", nullptr}, {"reason", "late"}});
+    for (const certificate::Change& change : changes_of_report(earlier, evaluated(job))) {
+        if (change.where.starts_with("/comparison/participants/") || change.where.starts_with("/comparison/points/")) {
+            EXPECT_TRUE(change.where.find("/D/") != std::string::npos || change.where.find("/N/") != std::string::npos)
+                << change.where << ": " << change.before << " -> " << change.after;
+        }
+    }
+}
+
 // Counts, lists and words that have no digits of their own beside them, and whole texts.
 TEST(ReportChanges, TellEachPlaceAsItIsPrinted) {
     const auto told = [](const std::function<void(json&)>& change) {
@@ -138,11 +163,11 @@ TEST(ReportChanges, TellEachPlaceAsItIsPrinted) {
     const std::string probability = told([](json& j) { j["coverage_probability"] = 0.99; });
     EXPECT_TRUE(has(probability, "printed /printed/coverage_probability: 95.45 % -> 99.00 %\n")) << probability;
     const std::string out = told([](json& j) { j["participants"].erase(6); });
-    EXPECT_TRUE(has(out, "text /comparison/participants/6/id: D -> \n")) << out;
+    EXPECT_TRUE(has(out, "text /comparison/participants/D/id: D -> \n")) << out;
     const std::string subset = told([](json& j) { j["participants"][4]["value"] = 10.9; });
     for (const char* const line :
          {"text /comparison/items/0/not_consistent/0: X -> F\n", "text /comparison/items/0/not_consistent/1:  -> X\n",
-          "number /comparison/summary/all/count_above_1: ", "number /comparison/participants/4/actions: 0 -> 1\n"}) {
+          "number /comparison/summary/all/count_above_1: ", "number /comparison/participants/F/actions: 0 -> 1\n"}) {
         EXPECT_TRUE(has(subset, line)) << line << subset;
     }
     const std::string language = told([](json& j) { j["certificate"]["languages"] = {"en", "de"}; });
@@ -165,7 +190,7 @@ TEST(ReportChanges, EndNowhere) {
     job["title"] = "Another title";
     const std::string all = listed(changes_of_report(earlier, evaluated(job)));
     for (int i = 0; i < 400; ++i) {
-        const std::string place = "/comparison/points/" + std::to_string(i) + "/printed/D:";
+        const std::string place = "/comparison/points/L" + std::to_string(i) + "/printed/D:";
         EXPECT_NE(all.find(place), std::string::npos) << place;
     }
     EXPECT_NE(all.find("text /title: Comparison of gauge blocks -> Another title\n"), std::string::npos);
@@ -194,8 +219,8 @@ TEST(ReportChanges, NameNobodyWhoseNameIsConfidential) {
         EXPECT_EQ(confidential.find("Secret"), std::string::npos) << confidential;
         EXPECT_NE(confidential.find("12.18 -> 12.19"), std::string::npos) << confidential;
     }
-    EXPECT_NE(told(true, true).find("/participants/0/name: Alpha -> Secret Ltd\n"), std::string::npos);
-    EXPECT_NE(told(false, true).find("/participants/0/name:  -> Secret Ltd\n"), std::string::npos);
+    EXPECT_NE(told(true, true).find("/participants/A/name: Alpha -> Secret Ltd\n"), std::string::npos);
+    EXPECT_NE(told(false, true).find("/participants/A/name:  -> Secret Ltd\n"), std::string::npos);
 }
 
 }  // namespace

@@ -228,6 +228,31 @@ TEST(DocumentsAndRecords, DisagreeWhereTheSameDigitsAreAnotherNumber) {
     }
 }
 
+// Law: the page of an amendment says which document it amends or replaces. That number is part of its own, "EX-1" of "EX-1/A1".
+TEST(DocumentsAndRecords, SayWhatTheyAmend) {
+    EvaluationRecord record = example_certificates().begin()->second;
+    certificate::CertificateData& data = record.certificate->data;
+    const std::string original = data.number;
+    data.number = original + "/A1";
+    for (const char* const kind : {"amended", "replaced"}) {
+        data.amendment =
+            certificate::Amendment{.kind = kind, .number = original, .sha256 = {}, .reason = "r", .changes = {"c"}};
+        const PrintedDocument now(std::vector{texts_of_view(view_of_document(record, agreement_assets()))});
+        for (const char* const language : {"en", "de", "es", "zh-Hant"}) {
+            std::string text = text_of_html(page_of(record, {language}));
+            EXPECT_EQ(PrintedDocument({text}).disagreement_with_facts(facts_of(data), now), "") << language << kind;
+            for (std::size_t at = text.find(original); at != std::string::npos; at = text.find(original, at + 1)) {
+                if (text.compare(at + original.size(), 3, "/A1") != 0) {
+                    text.replace(at, original.size(), "none");
+                }
+            }
+            EXPECT_NE(PrintedDocument({text}).disagreement_with_facts(facts_of(data), now).find("amends or replaces"),
+                      std::string::npos)
+                << language << kind;
+        }
+    }
+}
+
 // Law: what identifies a certificate is on its pages, in every language, and another one is told.
 TEST(DocumentsAndRecords, SayWhoseCertificateTheyAre) {
     for (const auto& [name, record] : example_certificates()) {
