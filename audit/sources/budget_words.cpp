@@ -687,9 +687,10 @@ bool is_relative_symbol(std::string_view head) {
     return is_one_of(symbol, {"w", "w_i", "wi", "w(xi)", "w(x_i)"});
 }
 
-std::optional<Column> relative_column_of(std::string_view head) {
+std::optional<Column> relative_column_of(std::string_view head, std::string_view unit_of_numbers) {
     head = trimmed(head);
-    const std::optional<gum::Unit> unit = known_unit(unit_in_head(std::string(head)));
+    const std::string of_head = unit_in_head(std::string(head));
+    const std::optional<gum::Unit> unit = known_unit(of_head.empty() ? std::string(unit_of_numbers) : of_head);
     if (!unit || !unit->dimension().is_one()) {
         return std::nullopt;
     }
