@@ -88,7 +88,8 @@ struct AuditedRow {
     std::optional<StatedNumber> contribution;  ///< |c| u, in the unit of the result
     std::optional<StatedNumber> nu;            ///< infinite where the table says so; none where it says nothing
     Shape shape = Shape::not_stated;
-    std::string shape_text;  ///< as the table has it
+    std::string shape_text;                     ///< as the table has it
+    std::optional<double> distribution_k = {};  ///< that the words of a normal distribution state, "normal (k = 2)"
     Origin origin = Origin::not_stated;
     Contributor contributor = Contributor::other;
     /// The number that the origin gives, read of the comment or the job, in the unit of the row: half-width, MPE, step,

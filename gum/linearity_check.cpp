@@ -152,6 +152,17 @@ Eigen::VectorXd nearest_turns(const Eigen::VectorXd& values, const Eigen::Vector
     return values.binaryExpr(to, [](double angle, double near) { return nearest_turn(angle, near); });
 }
 
+/// Whether values leave a tangent by a full turn at once, as atan2 does at ±180°, and not as a steep curve does, whose
+/// values lie on the way as well. Only of an angle that is known to less than half a turn.
+bool leaps_by_turns(const Eigen::VectorXd& values, const Eigen::VectorXd& tangent, double expanded_uncertainty) {
+    constexpr double k_half_a_turn = std::numbers::pi;
+    constexpr Eigen::Index k_clearly_more = 4;
+    const Eigen::ArrayXd off = (values - tangent).array().abs();
+    const Eigen::Index leaps = (off > 1.5 * k_half_a_turn).count();
+    const Eigen::Index on_the_way = (off > 0.5 * k_half_a_turn).count() - leaps;
+    return expanded_uncertainty < k_half_a_turn && leaps > 0 && k_clearly_more * on_the_way <= leaps;
+}
+
 }  // namespace
 
 std::vector<LinearityCheck> check_linearity(const MeasurementModel& model, const Propagation& propagation,
@@ -288,10 +299,11 @@ std::vector<LinearityCheck> check_linearity(const MeasurementModel& model, const
             continue;
         }
         // An angle that leaps by a full turn, as atan2 does at ±180°, is the same angle: its values are taken as near to
-        // the tangent as turns bring them. What is not linear then keeps the values of the model.
+        // the tangent as turns bring them. One that is bent as well leaps all the same: its trials would fill the circle.
         LinearityCheck turned = checked(k, nearest_turns(y.col(k), tangent.col(k)),
                                         nearest_turns(y_scatter.col(k), tangent_scatter.col(k)));
-        if (turned.adequate) {
+        if (turned.adequate ||
+            leaps_by_turns(y_scatter.col(k), tangent_scatter.col(k), factor(k) * propagation.standard_uncertainty(k))) {
             turned.leaps = true;
             checks.back() = turned;
         }

@@ -16,7 +16,8 @@ struct LinearityCheck {
     double end_deviation =
         0.0;              ///< larger of |f − tangent| at the two points where the tangent gives y ± U, [unit of y]
     double spread = 0.0;  ///< root mean square of f − y at the probes, [unit of y]
-    /// An angle that leaps by full turns within the uncertainties, as atan2 does at ±180°, and is linear but for that.
+    /// An angle that leaps by full turns within the uncertainties, as atan2 does at ±180°; all else is said of the angle on
+    /// the turn of the tangent.
     bool leaps = false;
 };
 

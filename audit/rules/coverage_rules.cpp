@@ -85,9 +85,19 @@ void contribution_not_reproducible(const AuditSubject& subject, FindingCollector
     });
 }
 
-/// A correlation that is stated without its rows, and two rows of which it explains the claimed u_c, or the claimed U.
-std::optional<RowCorrelation> explaining_correlation(const AuditedBudget& budget) {
-    constexpr std::size_t k_most_rows = 40, k_most_correlations = 8;
+/// Whether the claimed u_c, or U, follows where some rows correlate.
+bool follows_with(const AuditedBudget& budget, const std::vector<RowCorrelation>& correlations) {
+    AuditedBudget with = budget;
+    with.u_c_over_rows = with.U_over_k_u_c = 1.0;
+    with.correlations.insert(with.correlations.end(), correlations.begin(), correlations.end());
+    const ClaimCheck check = check_claims(with);
+    return check.allowed && !check.u_c_outside && (budget.claims.u_c || !check.U_outside);
+}
+
+/// A correlation that is stated without its rows, of rows of which it explains the claimed u_c, or the claimed U: of two, or
+/// of each pair of several below each other, as of three masses that were calibrated together. Empty where there are none.
+std::vector<RowCorrelation> explaining_correlation(const AuditedBudget& budget) {
+    constexpr std::size_t k_most_rows = 40, k_most_correlations = 8, k_most_together = 8;
     // Each once, for each is tried with all pairs of rows: a thousand notes would take half a minute.
     std::vector<double> tried;
     for (const std::vector<double>* const list : {&budget.unread_correlations, &budget.noted_correlations}) {
@@ -97,26 +107,41 @@ std::optional<RowCorrelation> explaining_correlation(const AuditedBudget& budget
             }
         }
     }
+    const std::size_t rows = std::min(budget.rows.size(), k_most_rows);
     for (const double r : tried) {
-        for (std::size_t i = 0; i < std::min(budget.rows.size(), k_most_rows); ++i) {
-            for (std::size_t j = i + 1; j < std::min(budget.rows.size(), k_most_rows); ++j) {
-                AuditedBudget with = budget;
-                with.u_c_over_rows = with.U_over_k_u_c = 1.0;
-                with.correlations.push_back({.first = i, .second = j, .r = r});
-                const ClaimCheck check = check_claims(with);
-                if (check.allowed && !check.u_c_outside && (budget.claims.u_c || !check.U_outside)) {
-                    return with.correlations.back();
+        for (std::size_t i = 0; i < rows; ++i) {
+            for (std::size_t j = i + 1; j < rows; ++j) {
+                if (std::vector<RowCorrelation> pair{{.first = i, .second = j, .r = r}}; follows_with(budget, pair)) {
+                    return pair;
+                }
+            }
+        }
+        for (std::size_t first = 0; first + 2 < rows; ++first) {
+            std::vector<RowCorrelation> together{{.first = first, .second = first + 1, .r = r}};
+            for (std::size_t last = first + 2; last < std::min(rows, first + k_most_together); ++last) {
+                for (std::size_t i = first; i < last; ++i) {
+                    together.push_back({.first = i, .second = last, .r = r});
+                }
+                // Below −1/(n − 1) n quantities cannot all have it with each other.
+                if (r * static_cast<double>(last - first) >= -1.0 && follows_with(budget, together)) {
+                    return together;
                 }
             }
         }
     }
-    return std::nullopt;
+    return {};
 }
 
-void add_as_question(const AuditedBudget& budget, const RowCorrelation& pair, AuditFinding finding,
+/// \param explaining  not empty
+void add_as_question(const AuditedBudget& budget, const std::vector<RowCorrelation>& explaining, AuditFinding finding,
                      FindingCollector& findings) {
-    finding.evidence.push_back(say("with r = {r:number} of {first} and {second} it follows", in_words(pair.r),
-                                   name_of_row(budget, pair.first), name_of_row(budget, pair.second)));
+    const std::string r = in_words(explaining.front().r);
+    const Sentence first = name_of_row(budget, explaining.front().first),
+                   last = name_of_row(budget, explaining.back().second);
+    finding.evidence.push_back(
+        explaining.size() == 1
+            ? say("with r = {r:number} of {first} and {second} it follows", r, first, last)
+            : say("with r = {r:number} of each pair of rows from {first} to {last} it follows", r, first, last));
     finding.question = "Which rows does the stated correlation belong to?";
     findings.add(std::move(finding), FindingSeverity::minor);
 }
@@ -139,8 +164,8 @@ void not_reproducible(const AuditSubject& subject, FindingCollector& findings) {
             finding.expected = range_in_words(check.u_c, budget.unit);
             finding.actual = say_number(claimed_in_words(*budget.claims.u_c, budget.unit));
             finding.kind = "u_c";
-            if (const std::optional<RowCorrelation> pair = explaining_correlation(budget)) {
-                add_as_question(budget, *pair, std::move(finding), findings);
+            if (const std::vector<RowCorrelation> explaining = explaining_correlation(budget); !explaining.empty()) {
+                add_as_question(budget, explaining, std::move(finding), findings);
             } else {
                 // ν_eff of the sum that is claimed goes with it.
                 finding.correct = [](AuditedBudget& corrected) {
@@ -178,10 +203,10 @@ void not_reproducible(const AuditSubject& subject, FindingCollector& findings) {
             finding.expected = range_in_words(check.U, budget.unit);
             finding.actual = say_number(claimed_in_words(*budget.claims.U, budget.unit));
             finding.kind = "U";
-            const std::optional<RowCorrelation> pair =
-                budget.claims.u_c ? std::nullopt : explaining_correlation(budget);
-            if (pair) {
-                add_as_question(budget, *pair, std::move(finding), findings);
+            const std::vector<RowCorrelation> explaining =
+                budget.claims.u_c ? std::vector<RowCorrelation>() : explaining_correlation(budget);
+            if (!explaining.empty()) {
+                add_as_question(budget, explaining, std::move(finding), findings);
             } else {
                 finding.correct = [](AuditedBudget& corrected) { corrected.U_over_k_u_c = 1.0; };
                 findings.add(std::move(finding));
@@ -206,8 +231,8 @@ void linear_sum(const AuditSubject& subject, FindingCollector& findings) {
         finding.expected = range_in_words(check.u_c, budget.unit);
         finding.actual = say_number(claimed_in_words(*budget.claims.u_c, budget.unit));
         // Of rows that are correlated with r = 1 the plain sum is right (JCGM 100:2008, 5.2.2).
-        if (const std::optional<RowCorrelation> pair = explaining_correlation(budget)) {
-            add_as_question(budget, *pair, std::move(finding), findings);
+        if (const std::vector<RowCorrelation> explaining = explaining_correlation(budget); !explaining.empty()) {
+            add_as_question(budget, explaining, std::move(finding), findings);
             continue;
         }
         finding.correct = k_trust_rows;

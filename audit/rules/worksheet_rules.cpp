@@ -167,6 +167,14 @@ bool is_divided_in_formula(const AuditedRow& row, double expected, const std::op
     });
 }
 
+/// The k that the words of a normal distribution state, "normal (k = 2)", as what is divided by; nothing where the words of
+/// the row state U and k (U13), or where it is 1, which is said of what was divided already.
+std::optional<double> k_of_distribution(const AuditedRow& row) {
+    constexpr double k_none = 1.2;
+    const bool has_U = row.origin == Origin::certificate && row.origin_value && row.certificate_k;
+    return has_U || !row.distribution_k || *row.distribution_k < k_none ? std::nullopt : row.distribution_k;
+}
+
 void divisor_against_label(const AuditSubject& subject, FindingCollector& findings) {
     const std::optional<WorksheetView> view = worksheet_of(subject);
     for_each_row(subject, [&findings, &view](const RowAt& at) {
@@ -174,7 +182,8 @@ void divisor_against_label(const AuditSubject& subject, FindingCollector& findin
             return;
         }
         const double divisor = at.is.divisor->value;
-        const std::optional<double> expected = divisor_of_shape(at.is.shape);
+        const std::optional<double> k = k_of_distribution(at.is);
+        const std::optional<double> expected = k ? k : divisor_of_shape(at.is.shape);
         // 1.732 that is typed for √3 is 3E-5 off, and a cell does not say how many of its digits count.
         const double allowed = std::max(at.is.divisor->half_step, 2e-4 * divisor);
         Sentence known;
@@ -189,9 +198,12 @@ void divisor_against_label(const AuditSubject& subject, FindingCollector& findin
         const bool two_steps = at.is.shape == Shape::rectangular && at.is.origin == Origin::resolution &&
                                at.is.origin_value && at.is.stated && is_about(divisor, std::sqrt(6.0), 2e-4) &&
                                is_about(std::abs(at.is.stated->value), *at.is.origin_value, 1e-9);
-        const bool disagrees = expected ? std::abs(*expected - divisor) > allowed && !full_step && !two_steps
-                                        : at.is.shape == Shape::normal && !known.empty() &&
-                                              (known.english().starts_with("√3") || known.english().starts_with("√6"));
+        // 1.96 is near enough to a k of 2.
+        const double allowed_of_k = std::max(allowed, 0.03 * divisor);
+        const bool disagrees =
+            expected ? std::abs(*expected - divisor) > (k ? allowed_of_k : allowed) && !full_step && !two_steps
+                     : at.is.shape == Shape::normal && !known.empty() &&
+                           (known.english().starts_with("√3") || known.english().starts_with("√6"));
         if (!disagrees || is_root_of_readings(at.is, view ? view->formula_at(place_of(at.is.divisor)) : nullptr)) {
             return;
         }
@@ -226,6 +238,12 @@ void divisor_against_label(const AuditSubject& subject, FindingCollector& findin
         const auto correct = [&at](const std::optional<double>& u, double factor) {
             return u && at.is.used_u > 0.0 ? change_u(at, *u) : scale_u(at.row, factor);
         };
+        if (k && divisor == 1.0) {
+            // The number may be a standard uncertainty already, and k that of the certificate that it comes from.
+            finding.expected = say_number(text::significant(*k, 6));
+            findings.add(std::move(finding), FindingSeverity::minor);
+            return;
+        }
         if (in_formula) {
             finding.expected = say_number("1");
             finding.correct = correct(std::abs(at.is.stated->value), divisor);
@@ -432,6 +450,51 @@ void deviation_by_n(const WorksheetView& view, const RowAt& at, FindingCollector
     findings.add(std::move(finding));
 }
 
+/// Whether a node of a formula is a standard deviation of readings: a function of them, or a cell with one or called so.
+bool is_deviation(const WorksheetView& view, const SheetFormula& formula, const FormulaNode& node) {
+    const auto is_function = [](const Formula& of) { return calls(of, {"STDEV", "STDEV.S", "STDEVA"}); };
+    const std::optional<CellPlace> cell = view.cell_of(formula, node);
+    if (!cell) {
+        return is_call(node, {"STDEV", "STDEV.S", "STDEVA"});
+    }
+    const SheetFormula* of_cell = view.formula_at(*cell);
+    const std::string label = view.label(*cell);
+    return (of_cell != nullptr && is_function(of_cell->formula)) ||
+           (of_cell == nullptr && !says(label, {"mean", "mittel"}) &&
+            says(label, {"standard deviation", "standardabweichung", "stdev", "std dev", "s of "}));
+}
+
+/// W04: s/n in place of s/√n, of a row that says how many readings there are.
+void divided_by_n(const WorksheetView& view, const RowAt& at, FindingCollector& findings) {
+    const SheetFormula* maker = at.is.u && !at.is.stated ? view.maker_of(at.is.u->place) : nullptr;
+    if (maker == nullptr || !(at.is.used_u > 0.0)) {
+        return;
+    }
+    const FormulaNode& quotient = maker->formula.nodes[maker->formula.root()];
+    if (quotient.kind != FormulaNodeKind::divide || quotient.children != 2) {
+        return;
+    }
+    const auto operands = maker->formula.children_of(quotient);
+    const FormulaNode& by = maker->formula.nodes[operands[1]];
+    const std::optional<CellPlace> cell = view.cell_of(*maker, by);
+    const CellValue value = cell ? view.value(*cell) : CellValue{};
+    const double n = by.kind == FormulaNodeKind::number ? by.number
+                     : value.kind == CellKind::number   ? value.number
+                                                        : 0.0;
+    const bool is_count = (at.is.n && static_cast<double>(*at.is.n) == n) || at.is.used_nu + 1.0 == n;
+    if (!(n >= 2.0) || !is_count || !is_deviation(view, *maker, maker->formula.nodes[operands[0]])) {
+        return;
+    }
+    AuditFinding finding = finding_at(
+        at, at.is.u->place,
+        say("the standard deviation of {count:number} readings is divided by n, and not by √n", text::shortest(n)));
+    finding.evidence = {say_number(text_of(view, *maker)), equals("n", text::shortest(n))};
+    finding.expected = say("√{n:number}", text::shortest(n));
+    finding.actual = say_number(text::shortest(n));
+    finding.correct = scale_u(at.row, std::sqrt(n));
+    findings.add(std::move(finding));
+}
+
 void count_of_readings(const AuditSubject& subject, FindingCollector& findings) {
     const std::optional<WorksheetView> view = worksheet_of(subject);
     ReadCells cells(*view);
@@ -484,7 +547,10 @@ void count_of_readings(const AuditSubject& subject, FindingCollector& findings) 
         finding.correct = both(scale_u(at.row, std::sqrt(*n / numbers)), set_degrees_of_freedom(at.row, numbers - 1.0));
         findings.add(std::move(finding));
     });
-    for_each_row(subject, [&](const RowAt& at) { deviation_by_n(*view, at, findings); });
+    for_each_row(subject, [&](const RowAt& at) {
+        deviation_by_n(*view, at, findings);
+        divided_by_n(*view, at, findings);
+    });
     tell_limit(cells, findings);
 }
 
@@ -888,6 +954,23 @@ void value_of_another_workbook(const AuditSubject& subject, FindingCollector& fi
     }
 }
 
+/// The first cell of a sheet with something in it that stands in a hidden row or column, and under the results; nothing where there is none.
+std::optional<CellPlace> hidden_under_results(const WorksheetView& view, std::size_t sheet) {
+    const workbook::Sheet& of = view.workbook().sheets[sheet];
+    const auto lies_in = [](const std::vector<workbook::Span>& spans, std::uint32_t at) {
+        return std::any_of(spans.begin(), spans.end(),
+                           [at](const workbook::Span& span) { return span.first <= at && at <= span.last; });
+    };
+    for (const workbook::Cell& cell : of.cells) {
+        const CellPlace at{.sheet = sheet, .address = cell.address};
+        if ((lies_in(of.hidden_rows, cell.address.row) || lies_in(of.hidden_columns, cell.address.column)) &&
+            view.stands_under_results(at)) {
+            return at;
+        }
+    }
+    return std::nullopt;
+}
+
 Sentence error_in_words(bool hidden, bool under_results) {
     if (under_results) {
         return hidden ? say("an error value on a hidden sheet, and U rests on it")
@@ -928,6 +1011,8 @@ void error_in_chain(const AuditSubject& subject, FindingCollector& findings) {
         });
         if (hidden && used) {
             findings.add(finding_in(sheet.name, say("U rests on a hidden sheet")));
+        } else if (const std::optional<CellPlace> first = hidden_under_results(*view, s)) {
+            findings.add(finding_in(view->place(*first), say("U rests on a hidden row or column")));
         }
     }
 }
@@ -1147,7 +1232,8 @@ std::vector<Rule> worksheet_rules() {
          .needs = {Need::rows},
          .detection =
              "the divisor is not that of the named distribution, beyond its printed digits: √3, √6, √2, k; √n of "
-             "readings is that of their mean; not where divisor 1 stands beside what was divided so already",
+             "readings is that of their mean; not where divisor 1 stands beside what was divided so already; beside a "
+             "stated k, \"normal (k = 2)\", the divisor 1 is asked about",
          .correction =
              "Divide by the divisor of the distribution, or name the distribution that the divisor belongs to.",
          .question = "Which of the two is meant, the distribution or the divisor?",
@@ -1167,7 +1253,7 @@ std::vector<Rule> worksheet_rules() {
          .clause = {.text = "JCGM 100:2008, 4.2.3", .verified = true},
          .needs = {Need::workbook},
          .detection = "text among readings; n of the divisor is not the number of readings in the range; STDEV.P of "
-                      "readings about their own mean, unless √(n − 1) divides it",
+                      "readings about their own mean, unless √(n − 1) divides it; s/n of n readings",
          .correction = "Correct the reading, and divide by the root of the number of readings that count.",
          .question = "How many readings were taken, and which of them count?",
          .examine = count_of_readings},
@@ -1240,14 +1326,14 @@ std::vector<Rule> worksheet_rules() {
          .question = "Which version of the other workbook was read, and who controls it?",
          .examine = value_of_another_workbook},
         {.id = "W12",
-         .title = "Error value or hidden sheet",
+         .title = "Error value, or something hidden",
          .clause = k_data_control,
          .policy = SeverityPolicy::fixed,
          .severity = FindingSeverity::minor,
          .needs = {Need::workbook},
-         .detection =
-             "#REF!, #VALUE! and their like, on any sheet, critical where a result is one; a hidden sheet under a "
-             "result",
+         .detection = "#REF!, #VALUE! and their like, on any sheet, critical where a result is one; a hidden sheet, "
+                      "row or column under a "
+                      "result",
          .correction = "Repair or remove the cell; show what a result rests on.",
          .question = "What did the cell hold, and what still reads it?",
          .examine = error_in_chain},

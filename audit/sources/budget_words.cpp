@@ -155,6 +155,7 @@ constexpr std::array k_column_words = {
     Word{U"c", sensitivity},
     Word{U"ci", sensitivity},
     Word{U"empfindlichkeit", sensitivity},
+    Word{U"empf", sensitivity},
     Word{U"sensitivitat", sensitivity},
     Word{U"empfindlichkeitskoeffizient", sensitivity},
     Word{U"sensitivitatskoeffizient", sensitivity},
@@ -251,9 +252,11 @@ constexpr std::array k_statement_words = {
     Word{U"coveragefactork", Statement::k},
     Word{U"kfactor", Statement::k},
     Word{U"k95", Statement::k},
+    Word{U"k99", Statement::k},
     Word{U"kp", Statement::k},
     Word{U"kfaktor", Statement::k},
     Word{U"t95", Statement::k},
+    Word{U"t99", Statement::k},
     Word{U"tfactor", Statement::k},
     Word{U"tfaktor", Statement::k},
     Word{U"studentfactor", Statement::k},
@@ -265,6 +268,7 @@ constexpr std::array k_statement_words = {
     Word{U"expandeduncertainty", Statement::U},
     Word{U"expandeduncertaintyu", Statement::U},
     Word{U"u95", Statement::U},
+    Word{U"u99", Statement::U},
     Word{U"erweitertemessunsicherheit", Statement::U},
     Word{U"erweitertemessunsicherheitu", Statement::U},
     Word{U"erweiterteunsicherheit", Statement::U},
@@ -687,9 +691,10 @@ bool is_relative_symbol(std::string_view head) {
     return is_one_of(symbol, {"w", "w_i", "wi", "w(xi)", "w(x_i)"});
 }
 
-std::optional<Column> relative_column_of(std::string_view head) {
+std::optional<Column> relative_column_of(std::string_view head, std::string_view unit_of_numbers) {
     head = trimmed(head);
-    const std::optional<gum::Unit> unit = known_unit(unit_in_head(std::string(head)));
+    const std::string of_head = unit_in_head(std::string(head));
+    const std::optional<gum::Unit> unit = known_unit(of_head.empty() ? std::string(unit_of_numbers) : of_head);
     if (!unit || !unit->dimension().is_one()) {
         return std::nullopt;
     }
@@ -866,10 +871,11 @@ std::optional<Statement> uncertainty_in_words(std::string_view name, std::string
             is_noun = is_standard = true;
         } else if (is_one_of(word, {"gesamtunsicherheit", "gesamtmessunsicherheit"})) {
             is_noun = is_total = true;
-        } else if (is_noun && is_one_of(symbol, {"U", "U(y)", "U95", "U_95", "W"})) {
-            is_expanded = true;
-        } else if (is_noun && is_one_of(symbol, {"u", "u_c", "uc", "u(y)", "u_c(y)", "uc(y)", "w", "w_c", "wc"})) {
-            is_standard = true;
+        } else if ((is_noun || is_expanded || is_total) && is_one_of(symbol, {"U", "U(y)", "U95", "U_95", "W"})) {
+            is_noun = is_expanded = true;  // "Expanded U"; that of a "Standard U" is the standard
+        } else if ((is_noun || is_total) &&
+                   is_one_of(symbol, {"u", "u_c", "uc", "u(y)", "u_c(y)", "uc(y)", "w", "w_c", "wc"})) {
+            is_noun = is_standard = true;
         } else if (word != "measurement") {
             return std::nullopt;
         }
@@ -936,6 +942,9 @@ std::optional<NamedStatement> whole_statement(std::string_view name, std::string
             named = NamedStatement{.statement = Statement::u_c};
         } else if (const std::optional<Statement> statement = meaning_of<k_statement_words>(text)) {
             named = NamedStatement{.statement = *statement, .may_be_quantity = may_be_quantity(*statement, text)};
+            if ((*statement == Statement::k || *statement == Statement::U) && text.ends_with("99")) {
+                named->coverage = "99 %";  // "U99", "k_99": 95 % is what is taken where nothing is said
+            }
         } else if (meaning_of<k_deviation_words>(text)) {
             named = NamedStatement{.statement = Statement::value, .may_be_quantity = true, .may_be_constant = true};
         }

@@ -33,7 +33,8 @@ inline constexpr int k_columns = 13;
 [[nodiscard]] std::string point_in_head(std::string_view head);
 /// The column of relative uncertainties that a head names, with the unit of a part: "Relative standard uncertainty (%)", "rel.
 /// Standardunsicherheit in ppm". Without such a unit, a part of a value would be taken for the value's own unit.
-[[nodiscard]] std::optional<Column> relative_column_of(std::string_view head);
+/// \param unit_of_numbers  that the numbers below show, where the head states none
+[[nodiscard]] std::optional<Column> relative_column_of(std::string_view head, std::string_view unit_of_numbers = {});
 /// Whether a head is the symbol of a relative u of ISO 376, "w", "w_i / %". Weights have it as well.
 [[nodiscard]] bool is_relative_symbol(std::string_view head);
 

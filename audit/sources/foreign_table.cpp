@@ -93,8 +93,11 @@ public:
         if (!read.type_a && is_a != is_b) {
             read.type_a = is_a;
         }
-        if (const std::optional<double> k = k_of_distribution(read.shape_text);
-            k && read.stated && !read.divisor && !read.u && !read.contribution) {
+        const std::optional<double> k = k_of_distribution(read.shape_text);
+        if (read.shape == Shape::normal || read.shape == Shape::other) {
+            read.distribution_k = k;
+        }
+        if (k && read.stated && !read.divisor && !read.u && !read.contribution) {
             read.divisor = exact_number(*k, read.place);  // "normal (k = 2)" in a table without divisors
         }
         for (std::optional<StatedNumber>* rounded : {&read.u, &read.contribution}) {

@@ -188,13 +188,46 @@ std::optional<NumberWithUnit> SheetView::number_in_text(std::string_view text, c
 
 namespace {
 
+/// The position behind a part of a number format in square brackets that shows nothing by itself, a colour or a language, "[Blue]",
+/// "[$-407]"; npos for hours that go on ([h]), currencies and conditions, by which the number is shown in another way.
+std::size_t behind_colour_or_language(std::string_view format, std::size_t open) {
+    constexpr std::size_t k_longest_of_time = 2;  // [hh]
+    const std::size_t close = format.find(']', open);
+    if (close == std::string_view::npos) {
+        return close;
+    }
+    const std::string_view held = format.substr(open + 1, close - open - 1);
+    const bool is_colour =
+        held.size() > k_longest_of_time && std::all_of(held.begin(), held.end(), [](char c) {
+            return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == ' ';
+        });
+    return is_colour || held.starts_with("$-") ? close + 1 : std::string_view::npos;
+}
+
+/// Whether a number format multiplies by 100: by a % that is neither quoted nor escaped.
+bool shows_percent(std::string_view format) {
+    constexpr char k_quote = 0x22;
+    bool is_quoted = false;
+    for (std::size_t i = 0; i < format.size() && (is_quoted || format[i] != ';'); ++i) {
+        if (format[i] == k_quote) {
+            is_quoted = !is_quoted;
+        } else if (!is_quoted && (format[i] == '\\' || format[i] == '_' || format[i] == '*')) {
+            ++i;
+        } else if (!is_quoted && format[i] == '%') {
+            return true;
+        }
+    }
+    return false;
+}
+
 /// The unit that a number format writes behind its digits, as 0.000" µm" does; "" where it writes none that is known, or something
 /// else than the number: a date, thousands (a comma behind the digits), a percentage.
 std::string unit_of_format(std::string_view format) {
     constexpr char k_quote = 0x22;
+    constexpr std::string_view k_general = "General";
     std::string behind;
-    bool has_digits = format.starts_with("General");
-    for (std::size_t i = has_digits ? 7 : 0; i < format.size() && format[i] != ';'; ++i) {
+    bool has_digits = format.starts_with(k_general);
+    for (std::size_t i = has_digits ? k_general.size() : 0; i < format.size() && format[i] != ';'; ++i) {
         const char c = format[i];
         if (c == k_quote) {
             const std::size_t close = format.find(k_quote, i + 1);
@@ -207,6 +240,12 @@ std::string unit_of_format(std::string_view format) {
             behind += format[++i];
         } else if (c == '_' || c == '*') {
             ++i;  // as wide as the next character, or filled with it
+        } else if (c == '[') {
+            const std::size_t behind_it = behind_colour_or_language(format, i);
+            if (behind_it == std::string_view::npos) {
+                return "";
+            }
+            i = behind_it - 1;
         } else if (c == '0' || c == '#' || c == '?' || c == '.') {
             has_digits = true;
             behind.clear();
@@ -268,7 +307,7 @@ std::optional<NumberWithUnit> SheetView::number_with_unit(const Cell& cell) cons
 NumberWithUnit SheetView::as_shown(NumberWithUnit read, const Cell& cell) const {
     const std::vector<std::string>& formats = workbook_.number_formats;
     const bool in_percent = value(cell).kind == CellKind::number && cell.number_format < formats.size() &&
-                            formats[cell.number_format].ends_with('%');
+                            shows_percent(formats[cell.number_format]);
     return in_percent
                ? NumberWithUnit{.number = exact_number(100.0 * read.number.value, read.number.place), .unit = "%"}
                : std::move(read);

@@ -139,14 +139,19 @@ void take_relative_and_first(const SheetView& sheet, const SheetView::Row& row, 
     // A relative u beside contributions in percent; weights stand beside those in the unit of the result.
     const bool may_be_relative = !has(Column::contribution) || is_unit_of_part(heads.units.at(Column::contribution));
     const bool has_contribution = has(Column::contribution);
+    const Cell* of_contributions = has_contribution ? cell_in(row, heads.columns.at(Column::contribution)) : nullptr;
+    const bool has_contributions_of_parts =
+        may_be_relative ||
+        (of_contributions != nullptr && is_unit_of_part(unit_below(sheet, row, heads, *of_contributions)));
     const std::vector<const Cell*> unknown =
         has(Column::u) ? std::vector<const Cell*>() : std::vector<const Cell*>(heads.unknown);
     for (const Cell* cell : unknown) {
         const std::string held = sheet.words(*cell);
-        const std::optional<Column> column = relative_column_of(held);
         const bool is_symbol = is_relative_symbol(held);
+        const std::string below = is_symbol ? "" : unit_below(sheet, row, heads, *cell);
+        const std::optional<Column> column = relative_column_of(held, is_unit_of_part(below) ? below : "");
         if (column && (*column == Column::u || *column == Column::contribution) && !has(*column) &&
-            (is_symbol ? may_be_relative : !has_contribution)) {
+            (is_symbol ? may_be_relative : !has_contribution || (*column == Column::u && has_contributions_of_parts))) {
             take(*column, cell, unit_in_head(held));
         } else if (is_symbol && !has(Column::u) && !has_contribution &&
                    is_unit_of_part(unit_below(sheet, row, heads, *cell))) {

@@ -7,6 +7,7 @@
 
 #include "gum/argument_check.h"
 #include "gum/comparison/agreement.h"
+#include "gum/comparison/method_correlation.h"
 #include "gum/comparison/refusal_place.h"
 #include "gum/comparison/scores.h"
 #include "gum/coverage.h"
@@ -22,6 +23,7 @@ namespace {
 using Eigen::Index;
 
 constexpr double k_rounding_of_correlation = 1e-9;
+constexpr double k_clearly_smaller = 0.99;    // a smaller uncertainty, of the larger one
 constexpr double k_noise_of_positions = 5.0;  // spread of reference values over their u, for a slope to mean much
 
 /// The differences of all points, and what both sides contribute to their uncertainty.
@@ -371,7 +373,6 @@ bool has_bias_line(const MethodSummary& row, const MethodResult& result) {
 /// other could be common to both sides in any way, and of finite ν it is not known how they would be.
 bool can_be_judged_for_any_correlation(const MethodComparison& comparison, const Differences& differences,
                                        const std::vector<Index>& points) {
-    constexpr double k_clearly_smaller = 0.99;
     constexpr double k_equal_factors = 0.025;
     const auto is_diagonal = [&](const Eigen::MatrixXd& covariance) {
         const Eigen::MatrixXd chosen = covariance(points, points);
@@ -392,17 +393,41 @@ bool can_be_judged_for_any_correlation(const MethodComparison& comparison, const
            std::all_of(points.begin(), points.end(), is_judged);
 }
 
-/// The verdict where it is not known what both methods share: one that holds whatever it is, from nothing to the whole
-/// of the smaller uncertainty. What a right U is confirmed with, and what refutes a wrong one, is the least of all.
-/// \param row  of no correlation
+/// What both methods share if it is `common` of the variance of each point: an effect of each point apart, or, where the
+/// points of a side share too much for that, one of all points. None where it can be neither.
+std::optional<Eigen::MatrixXd> shared_covariance(const MethodComparison& comparison, const std::vector<Index>& points,
+                                                 const Eigen::VectorXd& common) {
+    const Eigen::VectorXd root = common.cwiseSqrt();
+    for (const Eigen::MatrixXd& covariance :
+         {Eigen::MatrixXd(common.asDiagonal()), Eigen::MatrixXd(root * root.transpose())}) {
+        if (is_possible_covariance(comparison.covariance(points, points),
+                                   comparison.reference_covariance(points, points), covariance(points, points))) {
+            return covariance;
+        }
+    }
+    return std::nullopt;
+}
+
+/// The verdict where it is not known what both methods share: one that none, half or the whole of the smaller uncertainty
+/// objects to, as far as both can share it. What a right U is confirmed with, and what refutes a wrong one, is the least
+/// of all.
+/// \param row    of no correlation
+/// \param worst  largest |E_n| for the worst plausible correlation, where it must not be above 1
 AgreementVerdict verdict_for_any_correlation(const MethodComparison& comparison, const MethodSummary& row,
                                              double probability, const std::optional<BiasTest>& test, bool has_line,
-                                             Agreement& agreement_of_row) {
-    const AgreementVerdict without = agreement_verdict(agreement_of_row, std::nullopt, test);
-    if (without < AgreementVerdict::correlation_unknown) {
+                                             std::optional<double> worst, Agreement& agreement_of_row) {
+    const AgreementVerdict without = agreement_verdict(agreement_of_row, worst, test);
+    if (without <= AgreementVerdict::correlation_unknown) {
         return without;
     }
+    const bool has_equal = std::any_of(row.points.begin(), row.points.end(), [&](Index i) {
+        const ComparedPoint& point = comparison.points[static_cast<std::size_t>(i)];
+        return std::min(point.u, point.reference_u) >= k_clearly_smaller * std::max(point.u, point.reference_u);
+    });
     for (const double share : {0.5, 1.0}) {
+        if (share == 1.0 && has_equal) {
+            break;  // nothing would be left of the uncertainty of a difference that is 0
+        }
         MethodComparison shared = comparison;
         shared.correlation_unknown = false;
         // Of other directions nothing is asked here: where both uncertainties are equal, the whole of it would leave none.
@@ -412,7 +437,11 @@ AgreementVerdict verdict_for_any_correlation(const MethodComparison& comparison,
             const double smaller = std::min(point.u, point.reference_u);
             common(i) = share * smaller * smaller;
         }
-        shared.cross_covariance = common.asDiagonal();
+        const std::optional<Eigen::MatrixXd> covariance = shared_covariance(comparison, row.points, common);
+        if (!covariance) {
+            continue;
+        }
+        shared.cross_covariance = *covariance;
         const MethodDifferences chosen = selected(differences_of(shared).all, row.points);
         const Agreement judged = agreement(chosen, probability, agreement_of_row.family);
         const std::optional<MethodBias> bias = has_line ? bias_of(shared, chosen, row.points) : std::nullopt;
@@ -424,7 +453,7 @@ AgreementVerdict verdict_for_any_correlation(const MethodComparison& comparison,
         agreement_of_row.p_if_too_small = std::max(agreement_of_row.p_if_too_small, judged.p_if_too_small);
         agreement_of_row.p_if_too_large = std::max(agreement_of_row.p_if_too_large, judged.p_if_too_large);
     }
-    return agreement_verdict(agreement_of_row, std::nullopt, test);
+    return agreement_verdict(agreement_of_row, worst, test);
 }
 
 /// What a comparison with these findings corrected is judged to be.
@@ -447,10 +476,11 @@ void add_corrected_verdicts(const MethodComparison& comparison, MethodResult& re
             test = bias ? bias->test : std::nullopt;
         }
         Agreement judged = agreement(chosen, result.score_probability, family_of(row, result));
-        row.verdict_audited = worst && can_be_judged_for_any_correlation(better, differences, row.points)
-                                  ? verdict_for_any_correlation(better, row, result.score_probability, test,
-                                                                has_bias_line(row, result), judged)
-                                  : agreement_verdict(judged, worst, test);
+        const bool by_chance = worst && can_be_judged_for_any_correlation(better, differences, row.points);
+        row.verdict_audited =
+            worst ? verdict_for_any_correlation(better, row, result.score_probability, test, has_bias_line(row, result),
+                                                by_chance ? std::nullopt : worst, judged)
+                  : agreement_verdict(judged, std::nullopt, test);
     }
 }
 
@@ -475,9 +505,10 @@ MethodResult compare_methods(const MethodComparison& comparison) {
         row.slope_of_noise = slope_of_noise(comparison, row.points);
         const std::optional<BiasTest> test = row.bias ? row.bias->test : std::nullopt;
         row.for_any_correlation = row.worst && can_be_judged_for_any_correlation(comparison, differences, row.points);
-        row.verdict = row.for_any_correlation ? verdict_for_any_correlation(comparison, row, p, test,
-                                                                            has_bias_line(row, result), row.agreement)
-                                              : agreement_verdict(row.agreement, largest_of(row.worst), test);
+        row.verdict = row.worst ? verdict_for_any_correlation(
+                                      comparison, row, p, test, has_bias_line(row, result),
+                                      row.for_any_correlation ? std::nullopt : largest_of(row.worst), row.agreement)
+                                : agreement_verdict(row.agreement, std::nullopt, test);
     }
     if (comparison.is_audited()) {
         add_corrected_verdicts(comparison, result);

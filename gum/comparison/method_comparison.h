@@ -92,7 +92,8 @@ struct MethodResult {
 /// degrees of freedom of their uncertainties by Welch and Satterthwaite (JCGM 100:2008, G.4.1). Equal finite ν and equal
 /// u of several points of a side are one estimate. Where it is not known what both methods share, the verdict is one that
 /// holds for nothing, for half and for the whole of the smaller uncertainty, as long as points do not share anything with
-/// each other and ν is infinite; else |E_n| of every point for the whole of it must not be above 1.
+/// each other and ν is infinite; else |E_n| of every point for the whole of it must not be above 1 besides, and what both
+/// can share, at each point apart or at all of them, must not object.
 /// \throws InputError, NoResultError  GC-COMPARE-0201 sizes that do not fit, -0202 a correlation beyond 1, -0203 a
 ///                     direction that is called "all"; those of score() and agreement() with the point in `where`
 [[nodiscard]] MethodResult compare_methods(const MethodComparison& comparison);

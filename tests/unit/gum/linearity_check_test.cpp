@@ -86,7 +86,28 @@ TEST(LinearityCheck, AnAngleThatLeapsIsTheSameAngle) {
     EXPECT_FALSE(check(0.001, 0.02, "1").adequate) << "a number does not come round";
     EXPECT_TRUE(check(0.5, 0.02, "rad").adequate);
     EXPECT_FALSE(check(0.5, 0.02, "rad").leaps);
-    EXPECT_FALSE(check(0.001, 0.6, "rad").adequate) << "an angle that is not known at all";
+    EXPECT_FALSE(check(0.001, 0.6, "rad").adequate) << "an angle that is hardly known";
+}
+
+// Its trials would fill the circle, 10° ± 180° in place of 179° ± 23°. A curve that is as steep has values on the way.
+TEST(LinearityCheck, AnAngleThatIsBentLeapsAllTheSame) {
+    const auto leaps = [](const std::string& equation, std::vector<InputGroup> inputs) {
+        Model model(equation, std::move(inputs));
+        model.unit_of_output("rad");
+        return check_linearity(model, propagate(model, 0.9545), {}).front().leaps;
+    };
+    for (const double u : {0.2, 0.25, 0.4}) {
+        for (const double angle : {3.14, 3.0, -2.9, -3.1}) {
+            EXPECT_TRUE(leaps("atan2(s, c)", {input("s", std::sin(angle), u), input("c", std::cos(angle), u)}))
+                << u << ", " << angle;
+        }
+        EXPECT_FALSE(leaps("atan2(s, c)", {input("s", 0.01, 20.0 * u), input("c", -1.0, 20.0 * u)}))
+            << "not known at all";
+    }
+    EXPECT_FALSE(leaps("2*rad*exp(a)", {input("a", 0.0, 0.5)}));
+    EXPECT_FALSE(leaps("rad*a^3", {input("a", 0.0, 2.0)}));
+    EXPECT_FALSE(leaps("rad*a*abs(a)", {input("a", 1.0, 0.5)}));
+    EXPECT_FALSE(leaps("rad*10*tanh(3*a)", {input("a", 1.0, 0.5)}));
 }
 
 TEST(LinearityCheck, StaysInsideOfTheLimitsOfAnInput) {

@@ -172,10 +172,15 @@ private:
             say("The verdict holds whatever share of the smaller uncertainty is common to both methods: none, half and "
                 "the whole of it were judged, each with what chance makes.");
         }
+        const bool rests_on_it = whole().verdict == gum::AgreementVerdict::correlation_unknown;
+        if (rests_on_it && whole().worst && whole().worst->count_above_1 == 0) {
+            say("No |En| is above 1 for the worst plausible correlation, either; but with what both methods may share "
+                "the "
+                "differences together contradict what is left of their uncertainty.");
+        }
         const std::size_t above = whole().agreement.count_above_1;
         const std::size_t above_for_worst = whole().worst ? whole().worst->count_above_1 : 0;
         if (above_for_worst > above) {
-            const bool rests_on_it = whole().verdict == gum::AgreementVerdict::correlation_unknown;
             const std::string rests = above == 0 && rests_on_it
                                           ? "The agreement rests on the assumption that both methods share nothing: "
                                           : "The number of points above 1 is that of methods that share nothing: ";

@@ -43,6 +43,42 @@ TEST(WorksheetRules, W02LeavesTheRootOfReadingsAlone) {
     }
 }
 
+/// U used as u is seen where the distribution states its k: "normal (k = 3)" beside the divisor 2. Beside 1 it is asked, for u may
+/// have been stated, and k be that of the certificate behind it.
+TEST(WorksheetRules, W02SeesTheKOfADistribution) {
+    const auto row_of = [](double k, double divisor) {
+        AuditedRow row = normal_row(divisor);
+        row.shape_text = "normal (k = " + std::to_string(k) + ")";
+        row.distribution_k = k;
+        row.u = exact_number(row.used_u, "");
+        return row;
+    };
+    for (const double k : {2.0, 2.13, 2.58, 3.0}) {
+        for (const double divisor : {1.0, 1.65, 1.96, 2.0, 2.13, 2.2, 2.58, 3.0}) {
+            const std::vector<AuditFinding> findings = findings_of("W02", test::subject_of(row_of(k, divisor)));
+            const bool is_one = std::abs(k - divisor) > 0.03 * divisor;
+            ASSERT_EQ(findings.size(), is_one ? 1U : 0U) << k << ", " << divisor;
+            if (is_one && divisor == 1.0) {
+                EXPECT_EQ(findings[0].severity, FindingSeverity::minor) << k;
+                EXPECT_FALSE(findings[0].effect) << k;
+            } else if (is_one) {
+                ASSERT_TRUE(findings[0].effect) << k << ", " << divisor;
+                EXPECT_NEAR(findings[0].effect->alone.u_c, std::hypot(1.10 / k, 0.01), 1e-12) << k << ", " << divisor;
+            }
+        }
+        EXPECT_TRUE(findings_of("W02", test::subject_of(row_of(1.0, k))).empty())
+            << "k = 1 is said of what was divided";
+        AuditedRow readings = row_of(k, std::sqrt(10.0));
+        readings.type_a = true;
+        EXPECT_TRUE(findings_of("W02", test::subject_of(readings)).empty());
+        AuditedRow words = row_of(k, 1.0);  // U13 looks at U and k of the certificate
+        words.origin = Origin::certificate;
+        words.origin_value = 1.10;
+        words.certificate_k = k;
+        EXPECT_TRUE(findings_of("W02", test::subject_of(words)).empty());
+    }
+}
+
 TEST(WorksheetRules, W02CorrectsOnlyAUThatItsDivisorGave) {
     AuditedRow row = normal_row(std::sqrt(6.0));
     row.shape = Shape::rectangular;

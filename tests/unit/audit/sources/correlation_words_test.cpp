@@ -160,6 +160,36 @@ TEST(Correlations, MakeAPlainSum) {
     }
 }
 
+/// Three masses of one set, each of which correlates with each other one: no pair of rows explains the sum, all of them do.
+TEST(Correlations, OfSeveralRowsThatWereCalibratedTogether) {
+    struct Case {
+        std::string r, u_c, U;
+    };
+    const auto table = [](const std::string& note, const Case& one) {
+        return "Quantity,Estimate,Unit,u,nu,Sensitivity,Contribution\nMass 1,0,mg,0.020,50,1,0.020\n"
+               "Mass 2,0,mg,0.020,50,1,0.020\nMass 3,0,mg,0.020,50,1,0.020\nBalance,0,mg,0.010,9,1,0.010\n" +
+               note + "u_c,,mg," + one.u_c + "\nk,,,2\nU,,mg," + one.U + "\n";
+    };
+    const auto accused = [](const AuditReport& report) {
+        return std::count_if(report.findings.begin(), report.findings.end(), [](const AuditFinding& finding) {
+            return (finding.rule == "K01" || finding.rule == "K09") && finding.severity >= FindingSeverity::major;
+        });
+    };
+    for (const Case& one : {Case{"0.9", "0.0591", "0.118"}, Case{"1", "0.0608", "0.122"},
+                            Case{"0.5", "0.0500", "0.100"}, Case{"-0.3", "0.0241", "0.048"}}) {
+        EXPECT_EQ(accused(audit_of_correlated(table("", one))), 1) << one.r;
+        const std::string note = "\"Note: the masses were calibrated together, r = " + one.r + "\"\n";
+        EXPECT_EQ(accused(audit_of_correlated(table(note, one))), 0) << one.r;
+    }
+    // Three quantities cannot all have −0.9 with each other; and a sum that no rows explain is accused all the same.
+    EXPECT_EQ(accused(audit_of_correlated(
+                  table("\"The masses were calibrated together, r = -0.9\"\n", {"", "0.005", "0.010"}))),
+              1);
+    EXPECT_EQ(accused(audit_of_correlated(
+                  table("\"The masses were calibrated together, r = 0.9\"\n", {"", "0.0555", "0.111"}))),
+              1);
+}
+
 /// A coefficient in a cell is read with its symbol; a term with the sign of a correlation is none of the rows.
 TEST(Correlations, AreStatedByTheirSymbolInACell) {
     EXPECT_EQ(stated_correlation("r = 0.9"), 0.9);

@@ -51,6 +51,8 @@ TEST(ResultsByTheirNumbers, AreNoContributionsWhateverTheirNames) {
              {"Total standard uncertainty", "Total expanded uncertainty (k = 2; 95 %)"},
              {"Root sum of squares", "Two times that (k = 2)"},
              {"Measurement uncertainty (k=1)", "Measurement uncertainty (k=2)"},
+             {"Combined u", "Expanded U (k=2)"},
+             {"Total u_c", "Total U (k = 2)"},
              {"Gesamtunsicherheit u", "Gesamtunsicherheit U (k=2)"},
              {"Standardunsicherheit des Ergebnisses u(y)", "U = 2 · u(y)"},
              {"u_c", "U = k·u_c"},
@@ -69,6 +71,22 @@ TEST(ResultsByTheirNumbers, AreNoContributionsWhateverTheirNames) {
             audit_of_lines(voltage_with("\"" + u_c + "\",mV,,,,,0.405\n\"" + U + "\",mV,,,,,0.60\nk,,2\n"));
         const bool is_asked = planted.results.empty();
         EXPECT_TRUE(is_asked || has_finding(planted, "K01")) << U;
+    }
+}
+
+// NIST states gauge blocks so (JCGM 100:2008, H.1).
+TEST(ResultsByTheirNumbers, StateTheirProbabilityInTheSymbol) {
+    for (const auto& [k, U] : std::vector<std::pair<std::string, std::string>>{{"k99", "U99"}, {"t_99", "U_99"}}) {
+        const AuditReport sound = audit_of_lines(
+            "Gauge block\nQuantity,unit,u,nu,c,Contribution\nStandard,nm,25,18,1,25\nComparator,nm,9.7,25.6,1,9.7\n"
+            "Expansion,nm,2.9,50,1,2.9\nTemperature difference,nm,16.6,2,1,16.6\nu_c,nm,31.7\nnu_eff,,16\n" +
+            k + ",,2.92\n" + U + ",nm,93\n");
+        ASSERT_EQ(sound.results.size(), 1U);
+        EXPECT_FALSE(has_finding(sound, "K01") || has_finding(sound, "K02") || has_finding(sound, "R04")) << U;
+        const Claims& claims = sound.subject.budgets[0].claims;
+        ASSERT_TRUE(claims.U && claims.k) << U;
+        EXPECT_EQ(claims.U->text, "93");
+        EXPECT_EQ(claims.coverage_probability, 0.99);
     }
 }
 

@@ -52,15 +52,38 @@ TEST(SheetView, ShowsTheUnitThatAFormatWritesBehindItsNumbers) {
         const SheetView sheet(workbook, evaluation, 0, DecimalSign::point);
         return sheet.number_with_unit(*sheet.rows().at(1).front())->unit;
     };
-    for (const char* const format : {"0.000\" µm\"", "0.000\\ \"µm\"", "#,##0.00\" µm\"", "General\" µm\"",
-                                     "0.00\\ µ\\m", "0.0E+00\" µm\"", "0.00\" µm\";-0.00\" µm\"", "_-0.00\"µm\"_-"}) {
+    for (const char* const format :
+         {"0.000\" µm\"", "0.000\\ \"µm\"", "#,##0.00\" µm\"", "General\" µm\"", "0.00\\ µ\\m", "0.0E+00\" µm\"",
+          "0.00\" µm\";-0.00\" µm\"", "_-0.00\"µm\"_-", "[Blue]0.0000\" µm\"", "[$-407]0.00\" µm\"",
+          "[Color 12]0.00\" µm\";[Red]-0.00\" µm\""}) {
         EXPECT_EQ(shown(format), "µm") << format;
     }
     // Dates, thousands, percentages, words before the digits, and what is no unit.
     for (const char* const format : {"General", "0.00", "yyyy\\-mm\\-dd", "0.00,\" km\"", "0.00%", "\"mm \"0.00",
-                                     "0\" readings\"", "[$-409]d/m/yy", "h:mm", "0.00\"", "@"}) {
+                                     "0\" readings\"", "[$-409]d/m/yy", "h:mm", "0.00\"", "@", "[h]:mm", "[hh]\" h\"",
+                                     "[<1]0.0\" nm\";0.0\" µm\"", "[$€-407]0.00", "[Blue"}) {
         EXPECT_EQ(shown(format), "") << format;
     }
+}
+
+TEST(SheetView, MultipliesByAHundredWhereTheFormatDoes) {
+    const auto shown = [](const std::string& format) {
+        workbook::Workbook workbook = test::workbook_of({{"A1", "0.30"}});
+        workbook.number_formats = {format};
+        workbook.sheets[0].cells[0].number_format = 0;
+        const workbook::Evaluation evaluation = workbook::evaluate_workbook(workbook);
+        const SheetView sheet(workbook, evaluation, 0, DecimalSign::point);
+        const workbook::Cell& cell = *sheet.rows().at(1).front();
+        return sheet.as_shown(*sheet.number_with_unit(cell), cell);
+    };
+    for (const char* const format : {"0.00%", "0%", "0.0 %", "0.00%;-0.00%", "0.00%_)", "[Blue]0.00%"}) {
+        EXPECT_DOUBLE_EQ(shown(format).number.value, 30.0) << format;
+        EXPECT_EQ(shown(format).unit, "%") << format;
+    }
+    for (const char* const format : {"0.00\\%", "0.00\"%\"", "0.00_%", "0.00;0.00%"}) {
+        EXPECT_DOUBLE_EQ(shown(format).number.value, 0.30) << format;
+    }
+    EXPECT_EQ(shown("0.00\\%").unit, "%") << "percent as it stands";
 }
 
 }  // namespace

@@ -242,7 +242,9 @@ TEST(TableUnits, ANumberThatASheetShowsInPercentIsInPercent) {
                                                      {"A5", "k"},
                                                      {"B5", "2"}});
     workbook.number_formats.push_back("0.000%");
-    for (const char* const head : {"u", "w_i"}) {  // the symbol of a relative u, and its unit is that of the format
+    for (const char* const head :
+         {"u", "w_i",
+          "Relative standard uncertainty"}) {  // the symbol of a relative u, and its unit is that of the format
         workbook::Workbook shown = workbook;
         for (workbook::Cell& cell : shown.sheets[0].cells) {
             cell.number_format = cell.value.kind == workbook::CellKind::number && cell.value.number < 1.0 ? 1 : 0;
@@ -255,6 +257,22 @@ TEST(TableUnits, ANumberThatASheetShowsInPercentIsInPercent) {
         EXPECT_DOUBLE_EQ(subject.budgets[0].rows[1].used_u, 0.04);
         EXPECT_EQ(subject.budgets[0].U_over_k_u_c, 1.0);
         EXPECT_TRUE(subject.budgets[0].unread_columns.empty());
+    }
+}
+
+TEST(TableUnits, RelativeUncertaintiesStandBesideContributionsInPercent) {
+    for (const std::string& heads :
+         {std::string("Quantity,Estimate,Relative standard uncertainty,Sensitivity,Contribution\n"),
+          std::string("Quantity,Estimate,Relative standard uncertainty,Sensitivity,Contribution (%)\n")}) {
+        const AuditReport report = report_of(heads +
+                                             "Activity,5.02 kBq,0.8 %,1,0.8 %\nCounts,10000,1.0 %,1,1.0 %\n"
+                                             "Volume,12.0 mL,0.9 %,2,1.8 %\nu_c,,,,2.21 %\nU (k=2),,,,4.4 %\n");
+        ASSERT_EQ(report.subject.budgets.size(), 1U);
+        EXPECT_EQ(report.subject.budgets[0].unit, "%");
+        ASSERT_TRUE(report.subject.budgets[0].rows[2].u) << heads;
+        EXPECT_DOUBLE_EQ(report.subject.budgets[0].rows[2].used_u, 0.9);
+        EXPECT_TRUE(report.subject.budgets[0].unread_columns.empty());
+        EXPECT_FALSE(report.has_critical());
     }
 }
 

@@ -58,6 +58,70 @@ std::vector<AuditFinding> of_rule(const AuditReport& report, std::string_view ru
     return found;
 }
 
+TEST(WorksheetFindings, W04SeesADeviationOverN) {
+    const auto found = [](const std::string& name, const std::string& u, const std::string& label,
+                          const std::string& nu) {
+        const test::Contents contents = {{"A1", "quantity"}, {"B1", "u"},     {"C1", "sensitivity"},
+                                         {"D1", "nu"},       {"F1", label},   {"G1", "0.012"},
+                                         {"A2", "standard"}, {"B2", "0.001"}, {"C2", "1"},
+                                         {"D2", "inf"},      {"F2", "n"},     {"G2", "10"},
+                                         {"A3", name},       {"B3", u},       {"C3", "1"},
+                                         {"D3", nu},         {"A4", "u_c"},   {"B4", "=SQRT(SUMSQ(B2:B3))"},
+                                         {"A5", "k"},        {"B5", "2"},     {"A6", "U"},
+                                         {"B6", "=B5*B4"}};
+        return of_rule(audit(subject_of(test::workbook_of(contents), "b.xlsx"), all_rules()), "W04");
+    };
+    const std::string row = "Repeatability, mean of 10 readings", label = "s of 10 readings";
+    for (const char* const nu : {"9", ""}) {
+        for (const char* const u : {"=G1/G2", "=G1/10"}) {
+            const std::vector<AuditFinding> findings = found(row, u, label, nu);
+            ASSERT_EQ(findings.size(), 1U) << u;
+            ASSERT_TRUE(findings[0].effect) << u;
+            EXPECT_NEAR(findings[0].effect->alone.u_c, std::hypot(0.012 / std::sqrt(10.0), 0.001), 1e-12) << u;
+        }
+    }
+    for (const char* const u : {"=G1/SQRT(G2)", "=G1/10^0.5", "=G1", "=G1/2"}) {
+        EXPECT_TRUE(found(row, u, label, "9").empty()) << u;
+    }
+    EXPECT_TRUE(found(row, "=G1/G2", "sum of the deviations", "9").empty());
+    EXPECT_TRUE(found(row, "=G1/G2", "standard deviation of the mean", "9").empty());
+    EXPECT_TRUE(found("Repeatability", "=G1/10", label, "4").empty()) << "ten of what?";
+}
+
+TEST(WorksheetFindings, W12TellsOfWhatIsHiddenInTheSum) {
+    const auto found = [](std::vector<workbook::Span> rows, std::vector<workbook::Span> columns) {
+        workbook::Workbook made = test::workbook_of({{"A1", "quantity"},
+                                                     {"B1", "u"},
+                                                     {"D1", "sensitivity"},
+                                                     {"A2", "standard"},
+                                                     {"B2", "0.05"},
+                                                     {"D2", "1"},
+                                                     {"A3", "drift"},
+                                                     {"B3", "0.04"},
+                                                     {"D3", "1"},
+                                                     {"A4", "u_c"},
+                                                     {"B4", "=SQRT(SUMSQ(B2:B3))"},
+                                                     {"A5", "k"},
+                                                     {"B5", "2"},
+                                                     {"A6", "U"},
+                                                     {"B6", "=B5*B4"},
+                                                     {"F8", "1"}});
+        made.sheets[0].hidden_rows = std::move(rows);
+        made.sheets[0].hidden_columns = std::move(columns);
+        std::string where;
+        for (const AuditFinding& one : of_rule(audit(subject_of(std::move(made), "b.xlsx"), all_rules()), "W12")) {
+            EXPECT_EQ(one.severity, FindingSeverity::minor);
+            where += one.where + ";";
+        }
+        return where;
+    };
+    EXPECT_EQ(found({}, {}), "");
+    EXPECT_EQ(found({{.first = 3, .last = 3}}, {}), "Sheet1!B3;");
+    EXPECT_EQ(found({{.first = 2, .last = 3}}, {}), "Sheet1!B2;") << "told once a sheet";
+    EXPECT_EQ(found({}, {{.first = 2, .last = 2}}), "Sheet1!B2;");
+    EXPECT_EQ(found({{.first = 7, .last = 9}}, {{.first = 6, .last = 6}}), "") << "not under the result";
+}
+
 TEST(WorksheetFindings, W12IsCriticalWhereAResultIsAnError) {
     EXPECT_TRUE(of_rule(audited_sheet({}), "W12").empty());
     // Wherever the error begins, it reaches U, which the file then does not claim.

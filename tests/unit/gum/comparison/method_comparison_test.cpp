@@ -201,6 +201,47 @@ TEST(MethodVerdicts, ForAnyCorrelationNeedPointsOfTheirOwn) {
     }
 }
 
+/// A verdict of points that share effects rests on more than each |E_n| for the worst correlation: with it 20 of them at
+/// 0.98 at most may be far too many (Σ ζ² of 35.5, p = 0.018, and 12.2 without a correlation: "agreement").
+TEST(MethodVerdicts, OfPointsThatShareEffectsAreThoseOfEachPlausibleCorrelation) {
+    std::mt19937 random(3);
+    const auto uniform = [&] { return (static_cast<double>(random()) + 0.5) / 4294967296.0; };
+    int given = 0;
+    int without = 0;
+    for (int run = 0; run < 18; ++run) {
+        const double u_reference = 0.3 + 0.05 * run / 2.0;
+        const double limit = 2.0 * std::sqrt(1.0 - u_reference * u_reference);
+        std::vector<double> differences;
+        for (int i = 0; i < 20; ++i) {
+            differences.push_back(std::copysign((0.2 + 0.78 * uniform()) * limit, uniform() - 0.5));
+        }
+        MethodComparison comparison = methods_with(differences);
+        for (ComparedPoint& point : comparison.points) {
+            point.reference_u = u_reference;
+            point.reference_U = 2.0 * u_reference;
+            point.nu = run % 2 == 0 ? std::optional<double>() : 200.0;
+        }
+        comparison.reference_covariance = u_reference * u_reference * Eigen::MatrixXd::Identity(20, 20);
+        comparison.covariance.array() += 0.02;
+        comparison.covariance.diagonal().setOnes();
+        comparison.correlation_unknown = true;
+        const MethodSummary row = compare_methods(comparison).summaries[0];
+        EXPECT_FALSE(row.for_any_correlation);
+        without += row.verdict == AgreementVerdict::correlation_unknown ? 1 : 0;
+        if (row.verdict <= AgreementVerdict::correlation_unknown) {
+            continue;
+        }
+        ++given;
+        comparison.correlation_unknown = false;
+        for (const double share : {0.0, 0.5, 1.0}) {
+            comparison.cross_covariance = share * comparison.reference_covariance;
+            EXPECT_GT(compare_methods(comparison).summaries[0].verdict, AgreementVerdict::correlation_unknown) << run;
+        }
+    }
+    EXPECT_GT(given, 0);
+    EXPECT_GT(without, 0);
+}
+
 /// Right uncertainties in directions of a few points, and a shift of the first of them.
 MethodComparison right_in_directions(std::mt19937& random, std::size_t directions, std::size_t points, double shift) {
     // Polar method: std::normal_distribution is not the same in every library.
