@@ -184,15 +184,19 @@ ExitCode audit_files(const std::vector<std::string>& files, const AuditOptions& 
     std::vector<evaluation::AuditAttempt> attempts = evaluation::audit_files(
         files_to_audit.files, static_cast<unsigned>(common.threads), templates,
         [&](const std::string& text) { progress(text); }, waivers, options.laboratory,
-        [&](const fs::path& file, const gum::Progress& told, const std::function<void(const gum::Progress&)>& work) {
-            const std::string name = text::one_line(file.string());
-            // A Monte Carlo tells of its progress and ends alone, so that one record does not end the audit of all files. What tells
-            // of none ends the command, later.
-            evaluation::Walls walls = evaluation::walls_of_evaluation({file});
-            walls.time *= 2;
-            work_within_walls(common, walls, "for the evaluation of " + name,
-                              [&] { work(progress_within_walls(common, name, told, {file})); });
-        });
+        {.of_evaluation =
+             [&](const fs::path& file, const gum::Progress& told,
+                 const std::function<void(const gum::Progress&)>& work) {
+                 const std::string name = text::one_line(file.string());
+                 // A Monte Carlo tells of its progress and ends alone, so that one file does not end the audit of all. What
+                 // tells of none ends the command, later.
+                 evaluation::Walls walls = evaluation::walls_of_evaluation({file});
+                 walls.time *= 2;
+                 work_within_walls(common, walls, "for the evaluation of " + name,
+                                   [&] { work(progress_within_walls(common, name, told, {file})); });
+             },
+         .of_reading = [&](const std::vector<fs::path>& read,
+                           const std::function<void()>& work) { work_within_walls(common, read, work); }});
     for (std::size_t i = 0; i < attempts.size(); ++i) {
         evaluation::AuditAttempt& attempt = attempts[i];
         const ExitCode one = explained(common, [&] {

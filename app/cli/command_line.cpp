@@ -134,7 +134,8 @@ void add_common(CLI::App& command, CommonOptions& common) {
         .add_option(
             "--time-limit", common.time_limit,
             "Seconds after which the command ends; 0 is no limit. Default: none; of commands that read files of "
-            "others 30 for every 10 MB, and 600 for the evaluation of a record (gumcert limits)")
+            "others 30 for every 10 MB, and 600 for the evaluation of a record, or of a job that is audited (gumcert "
+            "limits)")
         ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{100'000'000}))
         ->type_name("SECONDS");
     add_file(command, "--refusal-log", common.refusal_log,
