@@ -243,6 +243,22 @@ void name_named_files(std::vector<FileToAudit>& files) {
 
 }  // namespace
 
+std::vector<fs::path> files_in(const std::vector<fs::path>& named) {
+    std::vector<fs::path> files;
+    for (const fs::path& name : named) {
+        std::error_code error;
+        if (!fs::is_directory(name, error)) {
+            files.push_back(name);
+            continue;
+        }
+        fs::recursive_directory_iterator at(name, fs::directory_options::skip_permission_denied, error);
+        for (; !error && at != fs::recursive_directory_iterator(); at.increment(error)) {
+            files.push_back(at->path());
+        }
+    }
+    return files;
+}
+
 FilesToAudit files_to_audit(const std::vector<fs::path>& named, const fs::path& laboratory) {
     FilesToAudit all;
     for (const fs::path& name : named) {

@@ -44,6 +44,9 @@ struct FilesToAudit {
     std::vector<std::filesystem::path> of_other_kinds;  ///< of a folder, sorted: nothing that an audit reads
 };
 
+/// The files that are named, and all of those folders that are, before any of them is read.
+[[nodiscard]] std::vector<std::filesystem::path> files_in(const std::vector<std::filesystem::path>& named);
+
 /// The files that an audit looks at: the named ones, and of a folder all of its files and folders whose endings the audit
 /// knows (.json, .csv, .xlsx, .xlsm, .xml), sorted by name; a PDF where a digital certificate is attached that does not
 /// lie beside it. Of a job of a folder and a record that was made of it, by this program and of the same bytes of all

@@ -88,6 +88,7 @@ TEST(AuditFiles, OfOtherPartsOfTheProgramAreNoJobs) {
     const FilesToAudit sound = files_to_audit({all});
     EXPECT_EQ(sound.files.size(), 1U);
     EXPECT_EQ(sound.of_other_kinds.size(), 4U) << "what is hidden is not named";
+    EXPECT_EQ(files_in({all, all / "none.csv"}).size(), 7U) << "a file that is named, whether it is there or not";
     std::ofstream(all / "job.json") << R"({"schema": "gumcert/job/1", "kind": )";
     std::ofstream(all / "kind.json") << R"({"kind": "budget"})";
     std::ofstream(all / "cut.json") << R"({"title": "x", )";
