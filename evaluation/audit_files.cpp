@@ -243,6 +243,22 @@ void name_named_files(std::vector<FileToAudit>& files) {
 
 }  // namespace
 
+std::vector<fs::path> files_in(const std::vector<fs::path>& named) {
+    std::vector<fs::path> files;
+    for (const fs::path& name : named) {
+        std::error_code error;
+        if (!fs::is_directory(name, error)) {
+            files.push_back(name);
+            continue;
+        }
+        fs::recursive_directory_iterator at(name, fs::directory_options::skip_permission_denied, error);
+        for (; !error && at != fs::recursive_directory_iterator(); at.increment(error)) {
+            files.push_back(at->path());
+        }
+    }
+    return files;
+}
+
 FilesToAudit files_to_audit(const std::vector<fs::path>& named, const fs::path& laboratory) {
     FilesToAudit all;
     for (const fs::path& name : named) {
@@ -322,30 +338,43 @@ audit::AuditSubject subject_of_record(const std::string& bytes, const fs::path& 
     return subject;
 }
 
+void evaluate_within(const AuditWalls& walls, const fs::path& file, const gum::Progress& told,
+                     const std::function<void(const gum::Progress&)>& work) {
+    if (walls.of_evaluation) {
+        walls.of_evaluation(file, told, work);
+    } else {
+        work(told);
+    }
+}
+
+void read_within(const AuditWalls& walls, const std::vector<fs::path>& files, const std::function<void()>& work) {
+    if (walls.of_reading && !files.empty()) {
+        walls.of_reading(files, work);
+    } else {
+        work();
+    }
+}
+
 /// The audit of a file before anything in it is accepted by others than itself.
 AuditedFile audited_as_it_is(const fs::path& file, unsigned threads, const fs::path& templates,
-                             const gum::Progress& progress, const fs::path& laboratory, const WithinWalls& within) {
+                             const gum::Progress& progress, const fs::path& laboratory, const AuditWalls& walls) {
     const std::string bytes = read_file(file);
     const std::string name = file.filename().string();
     AuditedFile audited{.file = file, .digest = encoding::sha256(bytes), .report = {}};
     audit::AuditSubject subject;
     switch (contents_of(bytes)) {
         case Contents::job:
-            audited.report =
-                *evaluate_job(file, CovarianceFile::none, threads, templates, progress, program_kinds(), laboratory)
-                     .audit;
+            evaluate_within(walls, file, progress, [&](const gum::Progress& told) {
+                audited.report =
+                    *evaluate_job(file, CovarianceFile::none, threads, templates, told, program_kinds(), laboratory)
+                         .audit;
+            });
             return audited;
-        case Contents::record: {  // it says itself how long its evaluation takes
-            const auto look = [&](const gum::Progress& told) {
+        case Contents::record:
+            evaluate_within(walls, file, progress, [&](const gum::Progress& told) {
                 subject = subject_of_record(bytes, file, threads, templates, told);
-            };
-            if (within) {
-                within(file, progress, look);
-            } else {
-                look(progress);
-            }
+            });
             break;
-        }
         case Contents::workbook:
             subject = audit::subject_of(workbook::read_xlsx(bytes, file.string()), name);
             break;
@@ -353,14 +382,19 @@ AuditedFile audited_as_it_is(const fs::path& file, unsigned threads, const fs::p
             subject = audit::subject_of(workbook::read_csv(bytes, file.string(), file.stem().string()), name);
             break;
         case Contents::certificate:
-            subject = subject_of_certificate(bytes, name);
+            read_within(walls, {file}, [&] { subject = subject_of_certificate(bytes, name); });
             break;
-        case Contents::pdf:
-            if (const std::string attached = certificate_in_pdf(bytes, name); !attached.empty()) {
-                subject = subject_of_certificate(attached, name);
+        case Contents::pdf: {
+            std::string attached;
+            read_within(walls, {file}, [&] {
+                attached = certificate_in_pdf(bytes, name);
+                subject = attached.empty() ? audit::AuditSubject{} : subject_of_certificate(attached, name);
+            });
+            if (!attached.empty()) {
                 break;
             }
             [[fallthrough]];
+        }
         case Contents::other:
             throw gum::InputError(gum::Diagnostic{
                 .code = "GC-AUDIT-0011",
@@ -386,7 +420,7 @@ AuditedFile audit_file(const fs::path& file, unsigned threads, const fs::path& t
 std::vector<AuditAttempt> audit_files(const std::vector<FileToAudit>& files, unsigned threads,
                                       const fs::path& templates, const gum::Progress& progress,
                                       std::span<const certificate::Waiver> waivers, const fs::path& laboratory,
-                                      const WithinWalls& within) {
+                                      const AuditWalls& walls) {
     std::vector<AuditAttempt> attempts(files.size());
     std::vector<std::vector<bool>> taken(files.size());  // waivers, of each file
     std::vector<std::size_t> tables, others;
@@ -396,7 +430,7 @@ std::vector<AuditAttempt> audit_files(const std::vector<FileToAudit>& files, uns
     }
     const auto attempt = [&](std::size_t file, const gum::Progress& told) {
         try {
-            AuditedFile audited = audited_as_it_is(files[file].file, threads, templates, told, laboratory, within);
+            AuditedFile audited = audited_as_it_is(files[file].file, threads, templates, told, laboratory, walls);
             taken[file] = audit::take_waivers(audited.report, waivers, audit::all_rules());
             attempts[file].has_critical = audited.report.has_critical();
             attempts[file].view = reports::make_file_view(audited.report, audit::all_rules(), audited.digest);
@@ -407,7 +441,12 @@ std::vector<AuditAttempt> audit_files(const std::vector<FileToAudit>& files, uns
             attempts[file].failure = std::current_exception();
         }
     };
-    run_in_workers(threads, tables.size(), [&](std::size_t task) { attempt(tables[task], {}); });
+    std::vector<fs::path> read;
+    for (const std::size_t table : tables) {
+        read.push_back(files[table].file);
+    }
+    read_within(walls, read,
+                [&] { run_in_workers(threads, tables.size(), [&](std::size_t task) { attempt(tables[task], {}); }); });
     for (const std::size_t file : others) {
         attempt(file, progress);
     }

@@ -44,6 +44,9 @@ struct FilesToAudit {
     std::vector<std::filesystem::path> of_other_kinds;  ///< of a folder, sorted: nothing that an audit reads
 };
 
+/// The files that are named, and all of those folders that are, before any of them is read.
+[[nodiscard]] std::vector<std::filesystem::path> files_in(const std::vector<std::filesystem::path>& named);
+
 /// The files that an audit looks at: the named ones, and of a folder all of its files and folders whose endings the audit
 /// knows (.json, .csv, .xlsx, .xlsm, .xml), sorted by name; a PDF where a digital certificate is attached that does not
 /// lie beside it. Of a job of a folder and a record that was made of it, by this program and of the same bytes of all
@@ -72,11 +75,17 @@ struct AuditAttempt {
     std::exception_ptr failure;                    ///< what audit_file() threw, where it is not audited
 };
 
-/// Does some work of reading a file of others within walls. What it tells its progress to may end it alone, by a throw; a wall
-/// behind it may end the process.
-/// \param told  who is told of the progress of all files
-using WithinWalls = std::function<void(const std::filesystem::path& file, const gum::Progress& told,
-                                       const std::function<void(const gum::Progress&)>& work)>;
+/// Who keeps the work on files of others within walls: each may do the work with walls around it, which may end the process.
+/// Empty: there are none.
+struct AuditWalls {
+    /// Around the evaluation of a job or record, which says itself how long it takes. What it tells its progress to may end
+    /// it alone, by a throw; `told` is told of the progress of all files.
+    std::function<void(const std::filesystem::path& file, const gum::Progress& told,
+                       const std::function<void(const gum::Progress&)>& work)>
+        of_evaluation;
+    /// Around the reading of all tables and workbooks, and of each certificate.
+    std::function<void(const std::vector<std::filesystem::path>& files, const std::function<void()>& work)> of_reading;
+};
 
 /// audit_file() of each of them, in their order. Tables and workbooks are audited side by side, jobs and records one after
 /// the other, which use all threads themselves; results are the same for any number of threads. Of thousands of files only
@@ -86,7 +95,7 @@ using WithinWalls = std::function<void(const std::filesystem::path& file, const 
                                                     const gum::Progress& progress = {},
                                                     std::span<const certificate::Waiver> waivers = {},
                                                     const std::filesystem::path& laboratory = {},
-                                                    const WithinWalls& within = {});
+                                                    const AuditWalls& walls = {});
 
 /// Does tasks 0 … n − 1 on some threads (0: as many as the machine has), and throws what the first of them throws.
 void run_in_workers(unsigned threads, std::size_t tasks, const std::function<void(std::size_t)>& task);

@@ -94,7 +94,8 @@ std::vector<Limit> limits() {
         "files of "
         "others, for every 10 MB of a file";
     constexpr std::string_view k_evaluation =
-        "the evaluation of the job in a record: archive add and amend, render, audit, check and rerun; the time also "
+        "the evaluation of the job in a record: archive add and amend, render, check and rerun, and audit, also of a "
+        "job; the time also "
         "archive replay, affected and worker; but for these at least what is given for reading the record";
     return {
         {k_job, "a file", jobs::k_file_limit, k_byte},

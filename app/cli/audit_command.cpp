@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
 #include <exception>
 #include <filesystem>
 #include <functional>
@@ -21,15 +20,10 @@
 #include "evaluation/name_job.h"
 #include "outputs/kept_files.h"
 #include "outputs/output_files.h"
-#include "reports/audit/audit_document.h"
-#include "reports/audit/audit_html.h"
-#include "reports/audit/audit_json.h"
-#include "reports/audit/audit_sarif.h"
-#include "reports/audit/audit_text.h"
+#include "reports/audit/audit_form.h"
 #include "reports/audit/audit_view.h"
 #include "reports/forms/asset_files.h"
 #include "reports/forms/pdf_worker.h"
-#include "reports/wording.h"
 #include "text/visible_text.h"
 
 namespace gumcert::cli {
@@ -38,61 +32,38 @@ namespace fs = std::filesystem;
 
 namespace {
 
-struct Form {
-    std::string_view name, file;  ///< after --format, and in a folder
-};
-constexpr std::array<Form, 5> k_forms = {Form{"text", "audit.txt"}, Form{"json", "audit.json"},
-                                         Form{"sarif", "audit.sarif"}, Form{"html", "audit.html"},
-                                         Form{"pdf", "audit.pdf"}};
-
 /// Which forms go where.
 struct Destination {
-    std::vector<std::pair<std::string, fs::path>> files;  ///< form and file
-    std::string to_stdout;                                ///< form; "" nothing
+    std::vector<std::pair<const reports::AuditForm*, fs::path>> files;
+    const reports::AuditForm* to_stdout = nullptr;
 };
-
-std::string form_of_ending(const fs::path& file) {
-    const std::string ending = file.extension().string();
-    if (ending == ".txt") {
-        return "text";
-    }
-    const auto form = std::find_if(k_forms.begin(), k_forms.end(),
-                                   [&ending](const Form& f) { return "." + std::string(f.name) == ending; });
-    return form == k_forms.end() ? "" : std::string(form->name);
-}
-
-std::string_view file_name_of(std::string_view form) {
-    return std::find_if(k_forms.begin(), k_forms.end(), [form](const Form& f) { return f.name == form; })->file;
-}
 
 /// A name with an ending that the form has is a file; any other is a folder, which gets the form that is asked for, or
 /// all of them.
 Destination destination_of(const AuditOptions& options, const fs::path& first) {
+    const reports::AuditForm* const asked = options.format.empty() ? nullptr : &reports::audit_form(options.format);
     Destination to;
     if (options.output.empty() || options.output == "-") {
-        const bool needs_file = (options.format == "html" || options.format == "pdf") && options.output.empty();
-        if (needs_file) {
+        if (asked != nullptr && asked->needs_file && options.output.empty()) {
             fs::path beside = first.has_filename() ? first : first.parent_path();
             beside.replace_extension();
             beside += "-audit." + options.format;
-            to.files.emplace_back(options.format, std::move(beside));
+            to.files.emplace_back(asked, std::move(beside));
         } else {
-            to.to_stdout = options.format.empty() ? "text" : options.format;
+            to.to_stdout = asked != nullptr ? asked : &reports::audit_form("text");
         }
         return to;
     }
     const fs::path output(options.output);
-    const std::string by_ending = form_of_ending(output);
-    if (!by_ending.empty() || (output.has_extension() && !options.format.empty() && !fs::is_directory(output))) {
-        to.files.emplace_back(options.format.empty() ? by_ending : options.format, output);
+    const reports::AuditForm* const by_ending = reports::audit_form_of(output.filename().string());
+    if (by_ending != nullptr || (output.has_extension() && asked != nullptr && !fs::is_directory(output))) {
+        to.files.emplace_back(asked != nullptr ? asked : by_ending, output);
         return to;
     }
-    if (!options.format.empty()) {
-        to.files.emplace_back(options.format, output / file_name_of(options.format));
-        return to;
-    }
-    for (const Form& form : k_forms) {
-        to.files.emplace_back(std::string(form.name), output / form.file);
+    for (const reports::AuditForm& form : reports::audit_forms()) {
+        if (asked == nullptr || asked == &form) {
+            to.files.emplace_back(&form, output / form.file);
+        }
     }
     return to;
 }
@@ -100,26 +71,6 @@ Destination destination_of(const AuditOptions& options, const fs::path& first) {
 /// The audit for programs, which can always be made and is kept where another form cannot.
 fs::path numbers_file(const Destination& to) {
     return fs::path(to.files.front().second).replace_extension(".json");
-}
-
-std::string rendered(const reports::AuditView& view, const std::string& form, const AuditOptions& options,
-                     const reports::TaskRunner& run) {
-    if (form == "json") {
-        return reports::audit_as_json(view, run);
-    }
-    if (form == "sarif") {
-        return reports::audit_as_sarif(view, audit::all_rules());
-    }
-    const std::vector<std::string> languages =
-        options.languages.empty() ? std::vector<std::string>{"en"} : options.languages;
-    const reports::RenderAssets assets = render_assets(options.share, languages);
-    if (form == "html") {
-        return reports::audit_as_html(view, assets);
-    }
-    if (form == "pdf") {
-        return reports::audit_as_pdf(view, assets);
-    }
-    return reports::audit_as_text(view, reports::read_audit_wording(assets), options.verbose);
 }
 
 /// Why a file was refused, as it is told on the terminal.
@@ -171,7 +122,7 @@ ExitCode audit_files(const std::vector<std::string>& files, const AuditOptions& 
     }
     outputs::require_not_inputs(outputs, all);
     const outputs::OutputsAtStart at_start = begin_outputs(outputs, common);
-    if (std::ranges::any_of(to.files, [](const auto& file) { return file.first == "pdf"; })) {
+    if (std::ranges::any_of(to.files, [](const auto& file) { return file.first->name == "pdf"; })) {
         reports::PdfWorker(render_assets(options.share)).require_ready();  // before anything is evaluated
     }
     const fs::path templates = templates_folder(options.share);
@@ -184,15 +135,19 @@ ExitCode audit_files(const std::vector<std::string>& files, const AuditOptions& 
     std::vector<evaluation::AuditAttempt> attempts = evaluation::audit_files(
         files_to_audit.files, static_cast<unsigned>(common.threads), templates,
         [&](const std::string& text) { progress(text); }, waivers, options.laboratory,
-        [&](const fs::path& file, const gum::Progress& told, const std::function<void(const gum::Progress&)>& work) {
-            const std::string name = text::one_line(file.string());
-            // A Monte Carlo tells of its progress and ends alone, so that one record does not end the audit of all files. What tells
-            // of none ends the command, later.
-            evaluation::Walls walls = evaluation::walls_of_evaluation({file});
-            walls.time *= 2;
-            work_within_walls(common, walls, "for the evaluation of " + name,
-                              [&] { work(progress_within_walls(common, name, told, {file})); });
-        });
+        {.of_evaluation =
+             [&](const fs::path& file, const gum::Progress& told,
+                 const std::function<void(const gum::Progress&)>& work) {
+                 const std::string name = text::one_line(file.string());
+                 // A Monte Carlo tells of its progress and ends alone, so that one file does not end the audit of all. What
+                 // tells of none ends the command, later.
+                 evaluation::Walls walls = evaluation::walls_of_evaluation({file});
+                 walls.time *= 2;
+                 work_within_walls(common, walls, "for the evaluation of " + name,
+                                   [&] { work(progress_within_walls(common, name, told, {file})); });
+             },
+         .of_reading = [&](const std::vector<fs::path>& read,
+                           const std::function<void()>& work) { work_within_walls(common, read, work); }});
     for (std::size_t i = 0; i < attempts.size(); ++i) {
         evaluation::AuditAttempt& attempt = attempts[i];
         const ExitCode one = explained(common, [&] {
@@ -211,12 +166,21 @@ ExitCode audit_files(const std::vector<std::string>& files, const AuditOptions& 
     if (views.empty()) {
         return code;
     }
-    const reports::TaskRunner run = [&common](std::size_t n, const std::function<void(std::size_t)>& task) {
-        evaluation::run_in_workers(static_cast<unsigned>(common.threads), n, task);
-    };
+    const reports::AuditWriting with{.rules = audit::all_rules(),
+                                     .run =
+                                         [&common](std::size_t n, const std::function<void(std::size_t)>& task) {
+                                             evaluation::run_in_workers(static_cast<unsigned>(common.threads), n, task);
+                                         },
+                                     .assets =
+                                         [&options] {
+                                             return render_assets(options.share, options.languages.empty()
+                                                                                     ? std::vector<std::string>{"en"}
+                                                                                     : options.languages);
+                                         },
+                                     .verbose = options.verbose};
     const reports::AuditView view = evaluation::audit_view(std::move(views), std::move(unaudited));
-    if (!to.to_stdout.empty()) {
-        write_to_stdout(rendered(view, to.to_stdout, options, run));
+    if (to.to_stdout != nullptr) {
+        write_to_stdout(to.to_stdout->write(view, with));
         return code;
     }
     std::vector<fs::path> inputs = all;
@@ -228,11 +192,11 @@ ExitCode audit_files(const std::vector<std::string>& files, const AuditOptions& 
     outputs::make_or_keep(
         [&] {
             for (const auto& [form, file] : to.files) {
-                written.push_back({.path = file, .bytes = rendered(view, form, options, run)});
+                written.push_back({.path = file, .bytes = form->write(view, with)});
             }
         },
         [&] {
-            keep_files({{numbers_file(to), reports::audit_as_json(view, run)}}, inputs, at_start,
+            keep_files({{numbers_file(to), reports::audit_form("json").write(view, with)}}, inputs, at_start,
                        "is this audit for programs", "ask for another form: --format html or text", common);
         });
     write_outputs(written, inputs, at_start);

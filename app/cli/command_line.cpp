@@ -1,7 +1,7 @@
 // What may be said to the program `gumcert`: its commands and options, in the words of --help.
 #include "app/cli/command_line.h"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -15,6 +15,7 @@
 #include "certificate/localised_text.h"
 #include "evaluation/kinds.h"
 #include "issuing/output_forms.h"
+#include "reports/audit/audit_form.h"
 #include "text/lists.h"
 
 namespace gumcert::cli {
@@ -45,19 +46,19 @@ constexpr const char* k_record_help =
     "Record file, or - for standard output; default: the job's name with -record.json";
 
 /// The values of --format.
-std::vector<std::string> form_names() {
+std::vector<std::string> names_of(const auto& forms) {
     std::vector<std::string> names;
-    for (const issuing::OutputForm& form : issuing::output_forms()) {
+    for (const auto& form : forms) {
         names.emplace_back(form.name);
     }
     return names;
 }
 
 /// "html, pdf, text, dcc (digital certificate, XML), or csv (scores of a comparison)".
-std::string forms_in_words() {
+std::string words_of(const auto& forms) {
     std::string words;
-    for (const issuing::OutputForm& form : issuing::output_forms()) {
-        words += words.empty() ? "" : &form == &issuing::output_forms().back() ? ", or " : ", ";
+    for (const auto& form : forms) {
+        words += words.empty() ? "" : &form == &forms.back() ? ", or " : ", ";
         words += form.name;
         words += form.description.empty() ? "" : " (" + std::string(form.description) + ")";
     }
@@ -74,13 +75,7 @@ std::string kinds_in_words() {
 struct Languages {
     std::vector<std::string> codes{certificate::k_languages.begin(), certificate::k_languages.end()};
     /// "en, de, zh-Hant, es".
-    [[nodiscard]] std::string in_words() const {
-        std::string words;
-        for (const std::string& code : codes) {
-            words += (words.empty() ? "" : ", ") + code;
-        }
-        return words;
-    }
+    [[nodiscard]] std::string in_words() const { return fmt::format("{}", fmt::join(codes, ", ")); }
     [[nodiscard]] CLI::IsMember check() const { return CLI::IsMember(codes); }
 };
 
@@ -134,7 +129,8 @@ void add_common(CLI::App& command, CommonOptions& common) {
         .add_option(
             "--time-limit", common.time_limit,
             "Seconds after which the command ends; 0 is no limit. Default: none; of commands that read files of "
-            "others 30 for every 10 MB, and 600 for the evaluation of a record (gumcert limits)")
+            "others 30 for every 10 MB, and 600 for the evaluation of a record, or of a job that is audited (gumcert "
+            "limits)")
         ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{100'000'000}))
         ->type_name("SECONDS");
     add_file(command, "--refusal-log", common.refusal_log,
@@ -234,10 +230,10 @@ void add_compare(CLI::App& program, Arguments& a) {
 void add_render(CLI::App& program, Arguments& a) {
     CLI::App& command = *program.add_subcommand("render", "Make documents from records");
     command.add_option("RECORD", a.records, "Record files (JSON)")->required();
-    command.add_option("--format", a.format, forms_in_words())
+    command.add_option("--format", a.format, words_of(issuing::output_forms()))
         ->required()
         ->type_name("FORM")
-        ->check(CLI::IsMember(form_names()));
+        ->check(CLI::IsMember(names_of(issuing::output_forms())));
     add_file(command, "-o,--output", a.documents.output,
              "File, or - for standard output; with several records a folder. Default: beside the record");
     add_document_options(command, a.documents);
@@ -313,11 +309,9 @@ void add_audit(CLI::App& program, Arguments& a) {
                     "File, whose ending says the form, or folder: audit.txt, audit.json, audit.sarif, audit.html and "
                     "audit.pdf, or the one that --format names. Default: text to the terminal")
         ->type_name("PLACE");
-    command
-        .add_option("--format", a.audit.format,
-                    "text, json (for programs), sarif (for review tools), html (for people, in one file) or pdf")
+    command.add_option("--format", a.audit.format, words_of(reports::audit_forms()))
         ->type_name("FORM")
-        ->check(CLI::IsMember({"text", "json", "sarif", "html", "pdf"}));
+        ->check(CLI::IsMember(names_of(reports::audit_forms())));
     command
         .add_option("--language", a.audit.languages,
                     "Language of text, HTML and PDF: " + Languages().in_words() + ". Default: en")
@@ -380,10 +374,10 @@ void add_archive(CLI::App& program, Arguments& a) {
                     "A text of your own that makes the request one: asked again with it, nothing happens twice")
         ->type_name("KEY");
     command
-        .add_option("--today", o.today,
-                    "The day by the calendar, 2026-11-24: needed where the last entry is more than a week old, or of "
-                    "another year "
-                    "and a number is taken, because of a clock that may be ahead; and after a clock that was")
+        .add_option(
+            "--today", o.today,
+            "The day by the calendar, 2026-11-24: needed where the last entry is more than a week old, or of another "
+            "year and a number is taken, because of a clock that may be ahead; and after a clock that was")
         ->type_name("DAY");
     command
         .add_option("--format", o.format,

@@ -31,6 +31,7 @@
 #include "app/cli/terminal/terminal.h"
 #include "archive/store/open_store.h"
 #include "encoding/openssl_configuration.h"
+#include "evaluation/audit_files.h"
 #include "evaluation/limits.h"
 
 namespace {
@@ -42,24 +43,6 @@ std::string version_text() {
     return fmt::format("gumcert {}\ncommit {}\nsha256 {}", k_version, k_commit, executable_digest());
 }
 
-/// The files that are named, and those of folders that are.
-std::vector<std::filesystem::path> files_in(const std::vector<std::string>& named) {
-    namespace fs = std::filesystem;
-    std::vector<fs::path> files;
-    for (const std::string& name : named) {
-        std::error_code error;
-        if (!fs::is_directory(name, error)) {
-            files.emplace_back(name);
-            continue;
-        }
-        fs::recursive_directory_iterator at(name, fs::directory_options::skip_permission_denied, error);
-        for (; !error && at != fs::recursive_directory_iterator(); at.increment(error)) {
-            files.push_back(at->path());
-        }
-    }
-    return files;
-}
-
 /// Commands that read files of others, and nothing else that takes long, have walls of their own.
 CommonOptions with_walls_of_command(const Arguments& a) {
     if (a.command == "import") {
@@ -67,7 +50,7 @@ CommonOptions with_walls_of_command(const Arguments& a) {
     }
     const bool reads_certificates = a.command == "check" && !a.files.empty() && a.files.front() == "dcc";
     if (a.command == "audit") {
-        const std::vector<std::filesystem::path> files = files_in(a.files);
+        const std::vector<std::filesystem::path> files = evaluation::files_in({a.files.begin(), a.files.end()});
         const bool evaluates = std::any_of(files.begin(), files.end(), [](const std::filesystem::path& file) {
             return file.extension() == ".json";  // a job or record, whose evaluation may take long
         });

@@ -156,8 +156,10 @@ TEST_F(Ceilings, RecordsOfOthersAreEvaluatedWithinWalls) {
     const std::string record = endless_record();
     const std::string out = (folder() / "out").string();
     const std::string page = (folder() / "out.html").string();
-    const std::vector<std::vector<std::string>> commands = {
-        {"render", record, "--format", "html", "-o", page}, {"audit", record, "-o", out}, {"rerun", record}};
+    const std::vector<std::vector<std::string>> commands = {{"render", record, "--format", "html", "-o", page},
+                                                            {"audit", record, "-o", out},
+                                                            {"audit", endless_job(), "-o", out},
+                                                            {"rerun", record}};
     for (const std::vector<std::string>& command : commands) {
         EXPECT_TRUE(gets_a_wall(command)) << command.front();
         std::vector<std::string> words = command;

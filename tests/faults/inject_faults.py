@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Makes every call of the system fail in turn while `gumcert run` replaces a set of outputs by another.
 
-    inject_faults.py --program GUMCERT --library SYSTEM_FAULTS [--stride N] [--with-node] [--memory] [--figures FILE]
+    inject_faults.py --program GUMCERT --library SYSTEM_FAULTS [--stride N] [--with-node] [--memory]
 
 In the folder lies the old set. The n-th open, read, write, fsync, rename, mkdir, unlink, close, flock … fails with EIO or
 ENOSPC, all from the n-th on fail, or the process is killed there (SIGKILL) or asked to end (SIGTERM, SIGINT). Then:

@@ -88,6 +88,7 @@ TEST(AuditFiles, OfOtherPartsOfTheProgramAreNoJobs) {
     const FilesToAudit sound = files_to_audit({all});
     EXPECT_EQ(sound.files.size(), 1U);
     EXPECT_EQ(sound.of_other_kinds.size(), 4U) << "what is hidden is not named";
+    EXPECT_EQ(files_in({all, all / "none.csv"}).size(), 7U) << "a file that is named, whether it is there or not";
     std::ofstream(all / "job.json") << R"({"schema": "gumcert/job/1", "kind": )";
     std::ofstream(all / "kind.json") << R"({"kind": "budget"})";
     std::ofstream(all / "cut.json") << R"({"title": "x", )";
@@ -96,10 +97,10 @@ TEST(AuditFiles, OfOtherPartsOfTheProgramAreNoJobs) {
     fs::remove_all(all);
 }
 
-/// How long the evaluation of a record takes is said by whoever made it; jobs and tables are looked at as they are.
-TEST(AuditFiles, EvaluateRecordsWithinWalls) {
+/// How long the evaluation of a job or record takes is said by whoever made it, and what a table costs as well.
+TEST(AuditFiles, KeepWallsAroundEachEvaluationAndAllTables) {
     const fs::path tree = GUMCERT_SOURCE_DIR;
-    const fs::path all = fs::path(testing::TempDir()) / "records_within_walls";
+    const fs::path all = fs::path(testing::TempDir()) / "files_within_walls";
     fs::remove_all(all);
     fs::create_directories(all);
     fs::copy_file(tree / "examples" / "gauge_block" / "job.json", all / "job.json");
@@ -109,33 +110,49 @@ TEST(AuditFiles, EvaluateRecordsWithinWalls) {
     std::ofstream(all / "table.csv") << "name,value,u\nx,1,0.1\n";
     const std::vector<FileToAudit> files = {
         {.file = all / "job.json"}, {.file = all / "record.json"}, {.file = all / "table.csv"}};
-    std::vector<std::string> within;
+    std::vector<std::string> evaluated;
+    std::vector<std::string> read;
     std::vector<std::string> progress;
     bool is_within = false;
-    const std::vector<AuditAttempt> attempts = audit_files(
-        files, 1, tree / "templates", [&](const std::string& text) { progress.push_back(is_within ? "+" : text); }, {},
-        {},
-        [&](const fs::path& file, const gum::Progress& told, const std::function<void(const gum::Progress&)>& work) {
-            within.push_back(file.filename().string());
-            is_within = true;
-            work(told);
-            is_within = false;
-        });
-    EXPECT_EQ(within, std::vector<std::string>{"record.json"});
+    const std::vector<AuditAttempt> attempts =
+        audit_files(files, 1, tree / "templates",
+                    [&](const std::string& text) { progress.push_back(is_within ? "+" : text); }, {}, {},
+                    {.of_evaluation =
+                         [&](const fs::path& file, const gum::Progress& told,
+                             const std::function<void(const gum::Progress&)>& work) {
+                             evaluated.push_back(file.filename().string());
+                             is_within = true;
+                             work(told);
+                             is_within = false;
+                         },
+                     .of_reading =
+                         [&](const std::vector<fs::path>& tables, const std::function<void()>& work) {
+                             for (const fs::path& table : tables) {
+                                 read.push_back(table.filename().string());
+                             }
+                             work();
+                         }});
+    EXPECT_EQ(evaluated, (std::vector<std::string>{"job.json", "record.json"}));
+    EXPECT_EQ(read, std::vector<std::string>{"table.csv"});
     for (const AuditAttempt& attempt : attempts) {
         EXPECT_TRUE(attempt.view);
     }
     EXPECT_THAT(progress, ::testing::Contains("+")) << "it is evaluated there";
-    // A record that takes longer than it may ends alone: the others are audited.
+    // What takes longer than it may ends alone: the others are audited.
     const std::vector<AuditAttempt> ended = audit_files(
         files, 1, tree / "templates", {}, {}, {},
-        [](const fs::path&, const gum::Progress&, const std::function<void(const gum::Progress&)>& work) {
-            work([](const std::string&) {
-                throw gum::StorageError(gum::Diagnostic{
-                    .code = "GC-STORE-0024", .where = "--time-limit", .what = "is used up", .rule = {}, .action = {}});
-            });
-        });
-    EXPECT_TRUE(ended[0].view);
+        {.of_evaluation =
+             [](const fs::path&, const gum::Progress&, const std::function<void(const gum::Progress&)>& work) {
+                 work([](const std::string&) {
+                     throw gum::StorageError(gum::Diagnostic{.code = "GC-STORE-0024",
+                                                             .where = "--time-limit",
+                                                             .what = "is used up",
+                                                             .rule = {},
+                                                             .action = {}});
+                 });
+             },
+         .of_reading = {}});
+    EXPECT_TRUE(ended[0].failure);
     EXPECT_TRUE(ended[1].failure);
     EXPECT_TRUE(ended[2].view);
     fs::remove_all(all);
