@@ -506,6 +506,7 @@ void describe(Archive& a, Struct& r) {
     a("values", r.values);
     a("printed", r.printed);
     a.stated("decimals", r.decimals, {"", "of_uncertainty"});
+    a.stated("form", r.form, {"", "sexagesimal"});
 }
 
 template <class Archive, Described<ShownColumn> Struct>
@@ -515,6 +516,7 @@ void describe(Archive& a, Struct& r) {
     a("heading", r.heading);
     a("role", r.role);
     a("stage", r.stage);
+    a.stated("form", r.form, {"", "sexagesimal"});
 }
 
 template <class Archive, Described<TableRequest::GroupUnit> Struct>

@@ -6,6 +6,8 @@
 #include <string_view>
 #include <utility>
 
+#include "certificate/point_tables.h"
+
 namespace gumcert::certificate {
 
 namespace {
@@ -76,8 +78,8 @@ PointIdentities identities_of(const std::vector<CertifiedTable>& tables, bool (*
             for (const PointColumn* column : columns) {
                 if (row < column->printed.size()) {
                     const bool is_number = row < column->values.size() && column->values[row];
-                    add(column->printed[row] +
-                        (is_number && !column->printed_unit.empty() ? "\u00A0" + column->printed_unit : ""));
+                    const std::string unit = is_number ? shown_unit(*column) : "";
+                    add(shown_cell(*column, row) + (unit.empty() ? "" : "\u00A0" + unit));
                 }
             }
             for (const CertifiedColumn& column : table.columns) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "certificate/localised_text.h"
+#include "text/angle_text.h"
 
 namespace gumcert::certificate {
 
@@ -33,6 +34,7 @@ struct PointColumn {
     std::vector<std::optional<double>> values;  ///< one a point, in `unit`; none: a word
     std::vector<std::string> printed;           ///< one a point
     std::string decimals = {};  ///< "of_uncertainty": each value ends where its uncertainty does; "": as it was written
+    std::string form = {};      ///< "sexagesimal": documents print the numbers in degrees, minutes and seconds
 };
 
 /// One column that a table shows.
@@ -43,6 +45,7 @@ struct ShownColumn {
     std::string of;
     LocalisedText heading;  ///< empty: that of what is shown
     std::string role, stage;
+    std::string form = {};  ///< of a "value", as that of PointColumn
 };
 
 /// What a job wants of one table of the certificate.
@@ -83,5 +86,28 @@ struct TableLayout {
     std::vector<ShownColumn> shown;
     std::string plot = {};  ///< as TableRequest::plot
 };
+
+// Angles that documents print as 12° 30′ 05.0″. Records, digital certificates and whatever computes have the decimal number in
+// the unit of the column; a number is rounded there, at the digit of U, and its parts are those of the rounded number.
+
+inline constexpr std::string_view k_sexagesimal = "sexagesimal";
+
+/// The last part of angles in a unit: seconds of `arcsec`, minutes of `arcmin`; nothing of any other unit.
+[[nodiscard]] std::optional<text::AnglePart> last_part_of(const std::string& unit);
+
+/// A number as documents print it. One that ends above its last part, 2.3E+5, keeps its power of ten, and its unit behind it.
+/// \param printed  of the record
+/// \param form     "" or k_sexagesimal, which stands for what it says in a unit that has parts alone
+[[nodiscard]] std::string in_form(const std::string& printed, const std::string& form, const std::string& unit);
+/// Its unit, beside the number or in the head of its column: "" where the number has the signs itself.
+[[nodiscard]] std::string unit_in_form(const std::string& printed_unit, const std::string& form,
+                                       const std::string& unit);
+
+/// A cell of a column of points; words as they are.
+[[nodiscard]] std::string shown_cell(const PointColumn& column, std::size_t row);
+[[nodiscard]] std::string shown_unit(const PointColumn& column);
+
+/// The form in which a table shows the values of a result; "" where it has no layout.
+[[nodiscard]] std::string form_of_result(const std::optional<TableLayout>& layout, const std::string& result);
 
 }  // namespace gumcert::certificate

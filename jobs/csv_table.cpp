@@ -1,4 +1,5 @@
 #include "jobs/csv_table.h"
+#include "text/angle_text.h"
 #include "text/counts.h"
 #include "text/csv_field.h"
 #include "text/lists.h"
@@ -105,11 +106,12 @@ private:
         return true;
     }
 
-    bool refuse_quote(std::uint32_t line, std::uint32_t column, std::string what) {
+    bool refuse_quote(std::uint32_t line, std::uint32_t column, std::string what,
+                      std::string action = "correct the quotes") {
         problems_.refuse(k_csv_quote, text::where_in_text(problems_.file(), {line, column}), std::move(what),
                          "a field with commas or quotes stands between double quotes, and a quote inside it is doubled "
                          "(RFC 4180)",
-                         "correct the quotes");
+                         std::move(action));
         return false;
     }
 
@@ -117,7 +119,11 @@ private:
         const std::size_t start = offset_;
         while (!at(separator_) && !at_line_end()) {
             if (at('"')) {
-                return refuse_quote(line_, column_, "a double quote inside a field that does not begin with one");
+                // Signs before it: 12° 30' 05"
+                const bool is_angle = text::has_angle_sign(text_.substr(start, offset_ - start));
+                return refuse_quote(
+                    line_, column_, "a double quote inside a field that does not begin with one",
+                    is_angle ? "write the seconds of an angle with \u2033 or two apostrophes" : "correct the quotes");
             }
             advance();
         }

@@ -158,6 +158,7 @@ inline constexpr InputCode k_sections_of_budget{"GC-INPUT-0364",
 inline constexpr InputCode k_sections_of_other_kind{"GC-INPUT-0365", "sections of another kind than budgets"};
 inline constexpr InputCode k_shared_equation{"GC-INPUT-0366", "an equation that the sections of a job cannot share"};
 inline constexpr InputCode k_limits_not_meant{"GC-INPUT-0367", "limits that cannot be meant for the points of a job"};
+inline constexpr InputCode k_angle_in_parts{"GC-INPUT-0368", "degrees, minutes and seconds where they cannot stand"};
 
 // Files, disks and stores.
 inline constexpr InputCode k_file_not_readable{"GC-STORAGE-0001", "a file cannot be opened or read"};
@@ -313,6 +314,7 @@ inline constexpr std::array k_input_codes{k_file_too_large,
                                           k_sections_of_other_kind,
                                           k_shared_equation,
                                           k_limits_not_meant,
+                                          k_angle_in_parts,
                                           k_file_not_readable,
                                           k_file_leads_out,
                                           k_warn_extra_column,

@@ -7,14 +7,17 @@
 #include <utility>
 
 #include "certificate/piece_roles.h"
+#include "certificate/point_tables.h"
 #include "gum/expression/name.h"
 #include "gum/quantity/decimal_rounding.h"
 #include "gum/rounding.h"
+#include "jobs/budget/angle_number.h"
 #include "jobs/budget/budget_fit_statement.h"
 #include "jobs/budget/budget_statement_fields.h"
 #include "jobs/certificate/certificate_archive.h"
 #include "jobs/csv_table.h"
 #include "jobs/job_limits.h"
+#include "text/angle_text.h"
 #include "text/counts.h"
 #include "text/lists.h"
 #include "text/numbers.h"
@@ -39,6 +42,7 @@ std::span<const std::string_view> statement_keys() {
         std::vector<std::string_view> keys(keys_of<InputStatement>().begin(), keys_of<InputStatement>().end());
         std::erase(keys, "role");
         std::erase(keys, "stage");
+        std::erase(keys, "form");
         return keys;
     }();
     return k_keys;
@@ -167,8 +171,9 @@ void BudgetInputs::read_input(const std::string& name, const std::string& pointe
     const auto unit = read_unit(object, "unit", problems_);
     symbols_are_whole_ = symbols_are_whole_ && unit && is_name;
     const QuantityPart part{std::string(object.optional_choice<std::string_view>("role", k_role_words).value_or("")),
-                            std::string(object.optional_choice<std::string_view>("stage", k_stage_words).value_or(""))};
-    if (!part.role.empty() || !part.stage.empty()) {
+                            std::string(object.optional_choice<std::string_view>("stage", k_stage_words).value_or("")),
+                            std::string(object.optional_choice<std::string_view>("form", k_form_words).value_or(""))};
+    if (!part.role.empty() || !part.stage.empty() || !part.form.empty()) {
         parts_[name] = part;
     }
     Stated stated;
@@ -651,12 +656,13 @@ void BudgetInputs::read_columns(const JsonObject& points, BudgetJob& job) {
                 unit = value.get<std::string>();
             }
         } else if (value.is_object()) {
-            static constexpr std::array<std::string_view, 4> k_keys{"unit", "heading", "role", "stage"};
+            static constexpr std::array<std::string_view, 5> k_keys{"unit", "heading", "role", "stage", "form"};
             const JsonObject object(document_, at, k_keys, problems_);
             unit = object.optional_string("unit");
             column.role = unit ? object.optional_choice<std::string_view>("role", k_role_words).value_or("")
                                : object.optional_choice<std::string_view>("role", k_word_roles).value_or("");
             column.stage = object.optional_choice<std::string_view>("stage", k_stage_words).value_or("");
+            column.form = object.optional_choice<std::string_view>("form", k_form_words).value_or("");
             if (const json* heading = object.find("heading"); heading != nullptr && heading->is_object()) {
                 read_localised(*heading, column.heading, false, {&document_, object.pointer("heading"), &problems_});
             } else {
@@ -689,7 +695,7 @@ void BudgetInputs::read_columns(const JsonObject& points, BudgetJob& job) {
         if (known != job.point_columns.end()) {  // of a section before
             const auto position = static_cast<std::size_t>(known - job.point_columns.begin());
             if (has_words_[position] != has_words || known->unit != column.unit || known->role != column.role ||
-                known->stage != column.stage || !(known->heading == column.heading)) {
+                known->stage != column.stage || known->form != column.form || !(known->heading == column.heading)) {
                 problems_.refuse(k_point_column, where,
                                  text::in_quotes(name) + " is declared otherwise than in a section before",
                                  "a name stands for one column in all sections", "declare it alike, or rename it");
@@ -728,9 +734,9 @@ void BudgetInputs::read_information(const FileColumn& column, const CsvTable& ta
         return;
     }
     if (!has_words_[*column.information]) {
-        into.values.back() = table.number(row, position, {});
-        if (into.values.back()) {
-            into.printed.back() = digits_as_written(table.number_text(row, position), *into.values.back());
+        if (const auto number = number_in_cell(table, row, position, into.unit, column.name, problems)) {
+            into.values.back() = number->value;
+            into.printed.back() = digits_as_written(number->written, number->value);
         }
     } else if (const auto objection = name_objection(cell.text)) {
         problems.refuse(k_text_not_allowed, table.where(cell),
@@ -751,6 +757,13 @@ void BudgetInputs::read_information(std::size_t column, const json& value, const
         if (value.is_number()) {
             into.values.back() = value.get<double>();
             into.printed.back() = digits_as_written(document_.number_as_written(at), value.get<double>());
+            return;
+        }
+        if (value.is_string() && text::has_angle_sign(value.get_ref<const std::string&>())) {
+            if (const auto angle = angle_number(value.get_ref<const std::string&>(), into.unit, where, problems_)) {
+                into.values.back() = angle->value;
+                into.printed.back() = digits_as_written(angle->written, angle->value);
+            }
             return;
         }
         problems_.refuse(k_wrong_type, where, described(value), "must be a number",
@@ -795,7 +808,9 @@ std::optional<int> BudgetInputs::decimals_of_job(const std::string& input) const
     if (index == of_name_.end() || !stated_[index->second].keys || !stated_[index->second].keys->has("value")) {
         return std::nullopt;
     }
-    return stated_[index->second].keys->decimals_as_written("value");
+    const StatementKeys& keys = *stated_[index->second].keys;
+    const auto of_angle = decimals_of_angle(keys.value("value"), stated_[index->second].unit.text());
+    return of_angle ? *of_angle : keys.decimals_as_written("value");
 }
 
 void BudgetInputs::refuse_unstated(const Stated& stated, std::size_t points) {
@@ -987,6 +1002,15 @@ void BudgetInputs::read_point_array(const json& points, const std::string& point
                 note_decimals(*index, job.points.size(), document_.decimals_as_written(at));
                 overrides.emplace(*index, base.with("value", value.get<double>(), document_, at, problems_));
                 ++stated_[*index].overridden["value"];
+            } else if (value.is_string() && text::has_angle_sign(value.get_ref<const std::string&>())) {
+                if (const auto angle = angle_number(value.get_ref<const std::string&>(), stated_[*index].unit.text(),
+                                                    document_.where(at), problems_)) {
+                    note_decimals(*index, job.points.size(), text::most_decimals({&angle->written, 1}));
+                    overrides.emplace(*index, base.with("value", angle->value, document_, at, problems_));
+                    ++stated_[*index].overridden["value"];
+                } else {
+                    told.insert(*index);
+                }
             } else if (value.is_object()) {
                 const JsonObject object(document_, at, keys_of<OverrideStatement>(), problems_);
                 if (const json* readings = object.find("observations"); readings != nullptr && readings->is_array()) {
@@ -995,6 +1019,8 @@ void BudgetInputs::read_point_array(const json& points, const std::string& point
                         document_.decimals_as_written(object.pointer("observations")) + (readings->size() > 1 ? 1 : 0));
                 } else if (const json* stated = object.find("value"); stated != nullptr && stated->is_number()) {
                     note_decimals(*index, job.points.size(), document_.decimals_as_written(object.pointer("value")));
+                } else if (const auto angle = decimals_of_angle(stated, stated_[*index].unit.text())) {
+                    note_decimals(*index, job.points.size(), *angle);
                 }
                 const StatementKeys own(document_, at, keys_of<OverrideStatement>(), problems_);
                 overrides.emplace(*index, base.with(own));
@@ -1122,6 +1148,13 @@ void BudgetInputs::read_point_file(const std::string& name, BudgetJob& job) {
         return;
     }
     laboratory_.fill_rows(document_, *table, wanted, *file->problems);
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+        const bool has_angles =
+            columns[c].input ? columns[c].key == "value" || columns[c].is_reading : columns[c].information.has_value();
+        if (has_angles) {
+            refuse_bare_numbers(*table, c, columns[c].name, *file->problems);
+        }
+    }
     for (std::size_t row = 0; row < table->rows(); ++row) {
         gum::BudgetPoint point;
         std::optional<std::string> point_name;
@@ -1166,9 +1199,11 @@ void BudgetInputs::read_point_file(const std::string& name, BudgetJob& job) {
                 ++stated_[*column.input].overridden["components"];
                 continue;
             }
-            if (const auto number = table->number(row, c, {})) {
-                const std::string written = table->number_text(row, c);
-                const int decimals = text::most_decimals({&written, 1});
+            const bool may_be_angle = column.key == "value" || column.is_reading;
+            if (const auto read = number_in_cell(*table, row, c, may_be_angle ? stated_[*column.input].unit.text() : "",
+                                                 column.name, *file->problems)) {
+                const std::optional<double> number = read->value;
+                const int decimals = text::most_decimals({&read->written, 1});
                 if (column.is_reading) {
                     FileReadings& of_input = readings[*column.input];
                     of_input.first = of_input.numbers.empty() ? c : of_input.first;

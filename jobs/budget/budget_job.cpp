@@ -494,8 +494,9 @@ private:
                 JobReader(object).read(probability);
                 output.coverage_probability = probability.coverage_probability;
                 output.coverage = probability.coverage;
-                if (!probability.role.empty() || !probability.stage.empty()) {
-                    job_.output_parts[name] = {std::string(probability.role), std::string(probability.stage)};
+                if (!probability.role.empty() || !probability.stage.empty() || !probability.form.empty()) {
+                    job_.output_parts[name] = {std::string(probability.role), std::string(probability.stage),
+                                               std::string(probability.form)};
                 }
                 if (object.has("unit")) {
                     output.unit = read_unit(object, "unit", *problems_);

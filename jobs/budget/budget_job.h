@@ -24,6 +24,7 @@ namespace gumcert::jobs {
 /// What a quantity is to the reader of a certificate (certificate/point_tables.h); "" says nothing.
 struct QuantityPart {
     std::string role, stage;
+    std::string form = {};  ///< "sexagesimal": of numbers as documents print them
 };
 
 /// A job of kind `budget`: the budget, and the job as it was read.

@@ -28,7 +28,7 @@ inline constexpr Words<std::string_view, 2> k_plot_words{{{"each", ""}, {"none",
 struct OutputStatement {
     std::optional<double> coverage_probability;
     std::optional<gum::CoverageChoice> coverage;
-    std::string_view role, stage;
+    std::string_view role, stage, form;
 };
 
 /// One table of results as the job wants it; read by jobs/budget/budget_tables.h.
@@ -69,6 +69,7 @@ void describe(Archive& a, OutputStatement& r) {
               "What the quantity is.");
     a("role", r.role, k_role_words, "What tables of results call it.");
     a("stage", r.stage, k_stage_words, "Of an item that was adjusted.");
+    a("form", r.form, k_form_words, "In arcsec or arcmin: documents print degrees, minutes and seconds.");
 }
 
 template <class Archive>
@@ -107,7 +108,9 @@ void describe_results(Archive& a, Struct& r) {
         "points", R"({"anyOf": [
         {"type": "array", "minItems": 1, "maxItems": 100000, "items": {
             "type": "object", "properties": {"point": {"type": ["string", "number"]}},
-            "additionalProperties": {"anyOf": [{"type": "number"}, {"$ref": "#/definitions/budget_override"}]}}},
+            "additionalProperties": {"anyOf": [{"type": "number"},
+                {"type": "string", "maxLength": 64, "pattern": "°|º|'|’|′|\"|”|″"},
+                {"$ref": "#/definitions/budget_override"}]}}},
         {"type": "object", "additionalProperties": false, "properties": {
             "file": {"$ref": "#/definitions/file_name"},
             "list": {"type": "array", "minItems": 1, "maxItems": 100000, "items": {"type": "object"}},
@@ -117,7 +120,8 @@ void describe_results(Archive& a, Struct& r) {
                     "heading": {"$ref": "#/definitions/description"},
                     "role": {"enum": ["nominal", "setting", "reference", "indication", "measured_value", "error",
                                       "deviation", "correction", "serial_number", "identification"]},
-                    "stage": {"enum": ["as_found", "as_left"]}}}]}}}}]})",
+                    "stage": {"enum": ["as_found", "as_left"]},
+                    "form": {"enum": ["sexagesimal"]}}}]}}}}]})",
         "1 to 100000 objects of numbers and of [budget_override](#budget_override); or an object with the name of "
         "a `file` or such a `list`, and `columns` of points that are no inputs",
         "A table of test points: under the names of inputs their values, or whatever differs; point is the name "

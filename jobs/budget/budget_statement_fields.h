@@ -78,6 +78,7 @@ inline constexpr std::size_t k_most_inputs = 10'000;
 inline constexpr std::size_t k_most_components = 1000;
 inline constexpr std::size_t k_least_samples = 100;
 inline constexpr In k_number{};
+inline constexpr std::size_t k_longest_angle = 64;  ///< bytes of "12° 30' 05.0\""
 inline constexpr In k_above_zero{above_zero("")};
 inline constexpr In k_not_negative{not_negative("")};
 inline constexpr In k_ratio{{.low = 0.0, .high = 1.0, .low_open = true}};
@@ -172,7 +173,8 @@ void describe_statement(Archive& a) {
     SamplesStatement samples;
     DistributionStatement distribution;
     SpecificationStatement specification;
-    a.by_code("value", k_number, "The estimate.");
+    a.by_code("value", Either{k_number, Line{k_longest_angle}},
+              "The estimate; an angle in arcsec or arcmin also as 12° 30' 05\".");
     a.by_code("u", k_not_negative, "Standard uncertainty.");
     a.by_code("U", k_above_zero, "Expanded uncertainty, with k or p.");
     a.by_code("k", k_above_zero, "Its coverage factor.");
@@ -251,6 +253,8 @@ inline constexpr auto k_word_roles = [] {
     return all;
 }();
 inline constexpr auto k_stage_words = words_of_quantities(certificate::k_quantity_stages);
+/// How documents print the numbers.
+inline constexpr Words<std::string_view, 1> k_form_words{{{certificate::k_sexagesimal, certificate::k_sexagesimal}}};
 
 template <class Archive>
 void describe(Archive& a, InputStatement&) {
@@ -262,6 +266,7 @@ void describe(Archive& a, InputStatement&) {
               "What the quantity is.");
     a.by_code("role", k_role_words, "What tables of results call it.");
     a.by_code("stage", k_stage_words, "Of an item that was adjusted.");
+    a.by_code("form", k_form_words, "In arcsec or arcmin: documents print degrees, minutes and seconds.");
 }
 
 template <class Archive>

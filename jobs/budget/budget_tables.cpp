@@ -14,6 +14,7 @@
 
 #include "certificate/piece_roles.h"
 #include "certificate/point_limits.h"
+#include "certificate/point_tables.h"
 #include "certificate/result_names.h"
 #include "gum/rounding.h"
 #include "gum/type_a.h"
@@ -72,6 +73,7 @@ public:
             }
         }
         section_ = 0;  // what follows looks at each point's own section
+        check_forms();
         if (problems_.refusals() == 0) {
             add_inputs();
             name_points();
@@ -258,7 +260,8 @@ private:
                                               ? described->second
                                               : certificate::LocalisedText(),
                                .role = part.role,
-                               .stage = part.stage};
+                               .stage = part.stage,
+                               .form = part.form};
         }
         if (input(name)) {
             const QuantityPart part = part_of_input(name);
@@ -868,6 +871,31 @@ private:
         }
     }
 
+    /// Degrees, minutes and seconds are parts of a number of seconds, or of minutes, and of no other.
+    void check_forms() {
+        const auto check = [&](const std::string& name, const std::string& form, const std::string& unit,
+                               const std::string& pointer) {
+            if (!form.empty() && !certificate::last_part_of(unit)) {
+                problems_.refuse(k_angle_in_parts, document_.where(pointer),
+                                 "the form \"sexagesimal\" of " + text::in_quotes(name) + ", whose unit is " + unit,
+                                 "degrees, minutes and seconds are a decimal number of the last of them: it is rounded "
+                                 "there, at the digit of U",
+                                 "state the unit arcsec, or arcmin for degrees and minutes");
+            }
+        };
+        for (const PointColumn& c : job_.point_columns) {
+            check(c.name, c.form, c.unit.empty() ? "1" : c.unit, "/points");
+        }
+        for (const gum::BudgetInput& i : job_.inputs) {
+            check(i.name, part_of_input(i.name).form, i.unit.text(), child_pointer("/inputs", i.name));
+        }
+        for (const auto& results : results_) {
+            for (const auto& [name, unit] : results) {
+                check(name, part_of_result(name).form, unit.text(), "/outputs");
+            }
+        }
+    }
+
     // ---- what follows from it ---------------------------------------------------------------------------------------
 
     /// Whether nobody wrote the value down: it is a sum (as that of a standard of the register is), a mean, or the middle
@@ -926,6 +954,7 @@ private:
             const QuantityPart part = part_of_input(stated.name);
             added.role = part.role;
             added.stage = part.stage;
+            added.form = part.form;
             if (const auto described = job_.input_descriptions.find(stated.name);
                 added.role.empty() && described != job_.input_descriptions.end()) {
                 added.heading = described->second;

@@ -6,6 +6,7 @@
 #include <set>
 #include <tuple>
 
+#include "certificate/point_tables.h"
 #include "json/members.h"
 #include "reports/forms/html_texts.h"
 #include "reports/forms/pdf_page_texts.h"
@@ -19,6 +20,7 @@ namespace {
 
 constexpr std::string_view k_of_index = "_";  // "R_0" is set with an index
 constexpr std::size_t k_gap_of_power = 5;     // "10" and an exponent
+constexpr std::string_view k_degrees = "\u00B0", k_minutes = "\u2032", k_minus_sign = "\u2212";
 
 using certificate::CertifiedColumn;
 using certificate::CertifiedTable;
@@ -98,6 +100,8 @@ struct PrintedDocument::Cell {
     std::string digits;                     ///< all of a text, those of the mantissa of a number
     std::optional<NumberAsPrinted> number;  ///< none: a text, of which the digits are compared
     std::string unit = {};                  ///< that stands in the head of its column, or behind the row
+    std::string angle = {};                 ///< of a number in degrees, minutes and seconds: its text, without sign
+    bool is_negative = false;               ///< that number
 };
 
 /// Numbers that stand behind each other.
@@ -145,6 +149,13 @@ PrintedDocument::PrintedDocument(const std::vector<std::string>& pages) {
 }
 
 PrintedDocument::Cell PrintedDocument::cell_of(const std::string& printed, const std::string& unit) {
+    if (printed.find(k_degrees) != std::string::npos && printed.find(k_minutes) != std::string::npos) {
+        return {.digits = all_digits(printed),
+                .number = std::nullopt,
+                .unit = unit,
+                .angle = without_blanks(printed),
+                .is_negative = printed.starts_with('-')};
+    }
     std::optional<NumberAsPrinted> number = only_number_as_printed(printed);
     std::string digits = number ? number->digits : all_digits(printed);
     if (number && is_zero_with_power(*number)) {
@@ -186,6 +197,9 @@ std::vector<PrintedDocument::Row> PrintedDocument::rows_of(const CertifiedTable&
         return table.argument && i < table.argument->values.size() && table.argument->values[i].has_value();
     };
     const auto is_interval = [](const CertifiedValue& v) { return v.interval && !v.printed_low.empty(); };
+    const auto as_value = [&](const CertifiedColumn& of, const std::string& printed) {
+        return certificate::in_form(printed, certificate::form_of_result(table.layout, of.result), of.unit);
+    };
     const CertifiedColumn* before = nullptr;
     for (const CertifiedColumn& column : table.columns) {
         const auto shows = [&](const char* what) {
@@ -200,7 +214,8 @@ std::vector<PrintedDocument::Row> PrintedDocument::rows_of(const CertifiedTable&
                 const bool with_U = shows("U") || shows("k") || shows("nu_eff");
                 Row row = row_of(
                     name,
-                    {shows("value") ? v.printed_value : "", with_U ? v.printed_low : "", with_U ? v.printed_high : ""},
+                    {shows("value") ? as_value(column, v.printed_value) : "",
+                     with_U ? as_value(column, v.printed_low) : "", with_U ? as_value(column, v.printed_high) : ""},
                     table.layout ? k_gap_in_layouts : k_gap_of_interval, table.layout ? "" : column.printed_unit);
                 row.shows_units = i == 0;
                 row.rows_above = static_cast<std::size_t>(&column - table.columns.data());
@@ -229,7 +244,7 @@ std::vector<PrintedDocument::Row> PrintedDocument::rows_of(const CertifiedTable&
             if (v.verdict) {
                 const bool value = !verdict_in_row || shows("value");
                 const bool U = !verdict_in_row || (shows("U") && !is_interval(v));
-                Row row = row_of(name, {value ? v.printed_value : "", U ? v.printed_U : ""},
+                Row row = row_of(name, {value ? as_value(column, v.printed_value) : "", U ? v.printed_U : ""},
                                  verdict_in_row ? k_gap_in_layouts : 0U, "");
                 row.verdict = v.verdict->verdict;
                 row.shown += ", " + row.verdict;
@@ -268,14 +283,19 @@ std::vector<PrintedDocument::Row> PrintedDocument::rows_of(const CertifiedTable&
                 add_cell(argument_at(i), "", false);
             } else if (shown.show == "column" && point != table.layout->columns.end() && i < point->printed.size()) {
                 const bool number = i < point->values.size() && point->values[i].has_value();
-                add_cell(point->printed[i], number ? point->printed_unit : "", number);
+                add_cell(certificate::shown_cell(*point, i), number ? certificate::shown_unit(*point) : "", number);
             } else if ((shown.show == "value" || shown.show == "U") && result != table.columns.end() &&
                        i < result->values.size()) {
                 const CertifiedValue& v = result->values[i];
                 outside.insert(v.scope_entry.empty());
-                const std::string& printed = shown.show == "value" ? v.printed_value : v.printed_U;
-                if (shown.show == "value" || !is_interval(v)) {
-                    add_cell(printed, result->printed_unit, true);
+                if (shown.show == "value") {
+                    add_cell(as_value(*result, v.printed_value),
+                             certificate::unit_in_form(result->printed_unit,
+                                                       certificate::form_of_result(table.layout, result->result),
+                                                       result->unit),
+                             true);
+                } else if (!is_interval(v)) {
+                    add_cell(v.printed_U, result->printed_unit, true);
                 }
                 is_next = is_next && shown.show == "value";  // k, and what else U needs, stand behind it
             } else {
@@ -292,7 +312,7 @@ std::vector<PrintedDocument::Row> PrintedDocument::rows_of(const CertifiedTable&
                                        [&](const auto& c) { return c.of == column.result && c.show == what; });
                 };
                 Row row = row_of(column.result + " at " + argument_at(i),
-                                 {shows("value") ? column.values[i].printed_value : "",
+                                 {shows("value") ? as_value(column, column.values[i].printed_value) : "",
                                   shows("U") ? column.values[i].printed_U : ""},
                                  k_gap_in_layouts, column.printed_unit);
                 row.shows_units = i == 0;
@@ -325,6 +345,13 @@ bool PrintedDocument::is_followed_by(std::size_t digit, const Row& row, const Do
 bool PrintedDocument::is_at(std::size_t digit, const Cell& cell) const {
     if (digits_.compare(digit, cell.digits.size(), cell.digits) != 0) {
         return false;
+    }
+    if (!cell.angle.empty()) {
+        const std::string_view before = std::string_view(text_).substr(0, places_[digit]);
+        const std::string_view here = std::string_view(text_).substr(before.size(), cell.angle.size());
+        return before.ends_with(k_minus_sign) == cell.is_negative && here.size() == cell.angle.size() &&
+               std::equal(here.begin(), here.end(), cell.angle.begin(),
+                          [](char a, char b) { return a == b || (a == ',' && b == '.'); });
     }
     if (!cell.number) {
         return true;

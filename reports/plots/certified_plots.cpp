@@ -1,5 +1,6 @@
 #include "reports/plots/certified_plots.h"
 
+#include "certificate/point_tables.h"
 #include "reports/plots/svg_drawing.h"
 #include "reports/point_headings.h"
 #include "reports/printable_text.h"
@@ -36,6 +37,20 @@ std::optional<double> number_of(std::string printed) {
         return std::nullopt;
     }
     return v;
+}
+
+/// What numbers of an axis are divided by, and the unit that they then have: angles that the table shows in degrees, minutes and
+/// seconds are drawn in degrees.
+struct AxisUnit {
+    double divisor = 1.0;
+    std::string unit;
+};
+AxisUnit axis_unit(const std::string& form, const std::string& unit, const std::string& printed_unit) {
+    constexpr double k_minutes = 60.0;  // of a degree
+    const auto last = form.empty() || unit.empty() ? std::nullopt : certificate::last_part_of(unit);
+    return !last ? AxisUnit{.divisor = 1.0, .unit = printed_unit}
+                 : AxisUnit{.divisor = *last == text::AnglePart::seconds ? k_minutes * k_minutes : k_minutes,
+                            .unit = "\u00B0"};
 }
 
 /// Numbers of the points of a table with a layout that its results are drawn against, the first that differ from point to
@@ -130,27 +145,35 @@ PlotPanel panel_of(const CertifiedTable& table, const CertifiedColumn& column, c
     CertifiedLimit upper;
     CertifiedLimit acceptance_lower;
     CertifiedLimit acceptance_upper;
+    const AxisUnit across =
+        abscissa != nullptr ? axis_unit(abscissa->form, abscissa->unit, abscissa->printed_unit) : AxisUnit();
+    const AxisUnit up =
+        axis_unit(certificate::form_of_result(table.layout, column.result), column.unit, column.printed_unit);
+    const auto divided = [](const std::optional<double>& number, double divisor) {
+        return number ? std::optional(*number / divisor) : std::nullopt;
+    };
     for (std::size_t i = 0; i < column.values.size(); ++i) {
         const CertifiedValue& value = column.values[i];
-        const std::optional<double>& x = abscissa != nullptr ? abscissa->values[i] : table.argument->values[i];
-        const std::optional<double> y = number_of(value.printed_value);
+        const std::optional<double> x =
+            divided(abscissa != nullptr ? abscissa->values[i] : table.argument->values[i], across.divisor);
+        const std::optional<double> y = divided(number_of(value.printed_value), up.divisor);
         if (!x || !y) {
             continue;
         }
-        series.points.push_back({.x = *x, .y = *y, .U = number_of(value.printed_U).value_or(0.0)});
+        series.points.push_back({.x = *x, .y = *y, .U = number_of(value.printed_U).value_or(0.0) / up.divisor});
         if (value.verdict) {
             const certificate::Verdict& v = *value.verdict;
-            lower.add(*x, v.lower);
-            upper.add(*x, v.upper);
+            lower.add(*x, divided(v.lower, up.divisor));
+            upper.add(*x, divided(v.upper, up.divisor));
             if (v.acceptance_lower != v.lower) {
-                acceptance_lower.add(*x, v.acceptance_lower);
+                acceptance_lower.add(*x, divided(v.acceptance_lower, up.divisor));
             }
             if (v.acceptance_upper != v.upper) {
-                acceptance_upper.add(*x, v.acceptance_upper);
+                acceptance_upper.add(*x, divided(v.acceptance_upper, up.divisor));
             }
         }
     }
-    const std::string unit = column.printed_unit.empty() ? "" : " / " + column.printed_unit;
+    const std::string unit = up.unit.empty() ? "" : " / " + up.unit;
     const PanelName name = name_of_panel(table, column, words);
     // The heading says when it was measured; the axis, which is shorter, what.
     PlotPanel panel{.heading = shortened(printable(name.stage + name.result), 40),
@@ -179,7 +202,8 @@ std::optional<Plot> certified_plot(const CertifiedTable& table, const std::strin
     const auto axis_of = [&](const certificate::PointColumn& of) {
         const std::string name =
             !of.heading.empty() ? words.localised(of.heading).first() : words("point_table", of.role).first();
-        return shortened(printable(name), 40) + (of.printed_unit.empty() ? "" : " / " + of.printed_unit);
+        const std::string unit = axis_unit(of.form, of.unit, of.printed_unit).unit;
+        return shortened(printable(name), 40) + (unit.empty() ? "" : " / " + unit);
     };
     const bool is_angle = table.argument->unit == "degree" || table.argument->printed_unit == "°";
     Plot plot{.id = id,

@@ -1,5 +1,6 @@
 #include "reports/view/certificate_conformity_section.h"
 
+#include "certificate/point_tables.h"
 #include "gum/quantity/unit.h"
 #include "reports/printed_texts.h"
 #include "reports/result_names.h"
@@ -7,6 +8,7 @@
 #include "reports/view/certified_value_tables.h"
 #include "reports/view/decision_formula.h"
 #include "reports/view/point_table_view.h"
+#include "text/numbers.h"
 
 #include <algorithm>
 #include <array>
@@ -38,6 +40,11 @@ struct Decided {
     std::string at;          ///< printed argument; "" without
     std::string table = {};  ///< id
     bool is_shown = false;   ///< its limits and verdict stand in the table of results
+    std::string form = {};   ///< of its values, as in the table of results
+
+    [[nodiscard]] std::string in_form(const std::string& printed) const {
+        return certificate::in_form(printed, form, column->unit);
+    }
 };
 
 std::vector<Decided> decided_by(const Certificate& certificate, const AgreedSpecification& specification) {
@@ -52,7 +59,8 @@ std::vector<Decided> decided_by(const Certificate& certificate, const AgreedSpec
                                    .argument = table.argument ? &*table.argument : nullptr,
                                    .at = table.argument ? table.argument->printed.at(i) : std::string(),
                                    .table = table.id,
-                                   .is_shown = shows_verdict(table, column.result)});
+                                   .is_shown = shows_verdict(table, column.result),
+                                   .form = certificate::form_of_result(table.layout, column.result)});
                 }
             }
         }
@@ -178,8 +186,14 @@ Text tolerance_limits(const std::vector<Decided>& decided, const AgreedSpecifica
         return limits_of_points(*s.limits, s, all_are_shown(decided), certificate, words);
     }
     const std::string unit = gum::unit_for_people(s.unit);
+    const std::string form = common(texts_of(decided, [](const Decided& d) { return d.form; })).value_or("");
     const auto limit = [&](const char* key, const std::optional<double>& agreed) {
-        return agreed ? words("certificate", key) + " = " + with_unit(words.number(plain(*agreed)), unit) : Text();
+        const auto number = [&] {
+            return form.empty() ? plain(*agreed) : certificate::in_form(text::shortest_plain(*agreed), form, s.unit);
+        };
+        return agreed ? words("certificate", key) + " = " +
+                            with_unit(words.number(number()), certificate::unit_in_form(unit, form, s.unit))
+                      : Text();
     };
     const Text low = limit("TL", s.lower);
     const Text high = limit("TU", s.upper);
@@ -343,12 +357,18 @@ void verdict_table(CertificateBuilder& builder, const Wording& words, const Agre
             numbers.push_back({words("certificate", key), in, std::move(texts)});
         }
     };
-    number("value", unit, [](const Decided& d) { return d.value->printed_value; });
+    const std::string unit_of_values =
+        common(texts_of(decided, [](const Decided& d) {
+            return certificate::unit_in_form(d.column->printed_unit, d.form, d.column->unit);
+        })).value_or(unit);
+    number("value", unit_of_values, [](const Decided& d) { return d.in_form(d.value->printed_value); });
     number("U_short", unit, [](const Decided& d) { return d.value->printed_U; });
-    number("TL", unit, [](const Decided& d) { return d.value->verdict->printed.lower; });
-    number("TU", unit, [](const Decided& d) { return d.value->verdict->printed.upper; });
-    number("AL", unit, [](const Decided& d) { return d.value->verdict->printed.acceptance_lower; });
-    number("AU", unit, [](const Decided& d) { return d.value->verdict->printed.acceptance_upper; });
+    number("TL", unit_of_values, [](const Decided& d) { return d.in_form(d.value->verdict->printed.lower); });
+    number("TU", unit_of_values, [](const Decided& d) { return d.in_form(d.value->verdict->printed.upper); });
+    number("AL", unit_of_values,
+           [](const Decided& d) { return d.in_form(d.value->verdict->printed.acceptance_lower); });
+    number("AU", unit_of_values,
+           [](const Decided& d) { return d.in_form(d.value->verdict->printed.acceptance_upper); });
     number("TUR", "", [](const Decided& d) { return d.value->verdict->printed.test_uncertainty_ratio; });
     number("p_c", "%", [](const Decided& d) { return d.value->verdict->printed.conformance_probability; });
     number("risk", "%", [](const Decided& d) { return d.value->verdict->printed.specific_risk; });

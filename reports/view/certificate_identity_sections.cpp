@@ -1,6 +1,7 @@
 #include "reports/view/certificate_identity_sections.h"
 
 #include "certificate/address_lines.h"
+#include "certificate/point_tables.h"
 #include "certificate/section_data.h"
 #include "reports/point_headings.h"
 #include "reports/printable_text.h"
@@ -272,6 +273,16 @@ std::pair<const certificate::CertifiedColumn*, const certificate::CertifiedValue
     return found;
 }
 
+/// As the table of a result shows its values.
+std::string form_of(const Certificate& certificate, const std::string& result) {
+    for (const certificate::CertifiedTable& table : certificate.tables) {
+        if (std::string form = certificate::form_of_result(table.layout, result); !form.empty()) {
+            return form;
+        }
+    }
+    return {};
+}
+
 /// "l = 50000838 nm ± 68 nm, k = 2.16" where that is the whole of the results; else where they stand. A value with a
 /// mark (outside of the accreditation, external) stands where the mark is explained.
 Text results_in_one_line(const EvaluationRecord& record, const Wording& words) {
@@ -286,15 +297,20 @@ Text results_in_one_line(const EvaluationRecord& record, const Wording& words) {
     const auto quantity = [&](const std::string& printed) {
         return with_unit(words.number(printed), column->printed_unit);
     };
+    const std::string form = form_of(certificate, column->result);
+    const auto value_of = [&](const std::string& printed) {
+        return with_unit(words.number(certificate::in_form(printed, form, column->unit)),
+                         certificate::unit_in_form(column->printed_unit, form, column->unit));
+    };
     const Coverage kind = coverage_of(*value);
     if (kind == Coverage::interval) {
         const bool has_u = !value->printed_u.empty();
         return words.filled("statement", has_u ? "result_interval_and_u" : "result_interval",
                             {{"name", column->result},
-                             {"value", quantity(value->printed_value)},
+                             {"value", value_of(value->printed_value)},
                              {"u", has_u ? quantity(value->printed_u) : Text()},
-                             {"low", quantity(value->printed_low)},
-                             {"high", quantity(value->printed_high)},
+                             {"low", value_of(value->printed_low)},
+                             {"high", value_of(value->printed_high)},
                              {"p", stated_probability(record, {value}, words)}});
     }
     if (kind == Coverage::none || kind == Coverage::nothing) {
@@ -302,7 +318,7 @@ Text results_in_one_line(const EvaluationRecord& record, const Wording& words) {
     }
     Text text = words.filled(
         "statement", certificate.profile.plus_minus_in_tables ? "result_with_U" : "result_and_U",
-        {{"name", column->result}, {"value", quantity(value->printed_value)}, {"U", quantity(value->printed_U)}});
+        {{"name", column->result}, {"value", value_of(value->printed_value)}, {"U", quantity(value->printed_U)}});
     if (!value->printed_k.empty()) {
         text += words("document", "separator") + words.fill("k_one", {{"k", words.number(value->printed_k)}});
     }

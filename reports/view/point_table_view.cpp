@@ -1,5 +1,6 @@
 #include "reports/view/point_table_view.h"
 
+#include "certificate/point_tables.h"
 #include "reports/point_headings.h"
 #include "reports/printed_texts.h"
 #include "reports/result_names.h"
@@ -124,8 +125,8 @@ private:
             if (found != columns.end()) {
                 const bool number = std::any_of(found->values.begin(), found->values.end(),
                                                 [](const auto& v) { return v.has_value(); });
-                put(c, heading_of_shown(table_, c, words_), found->printed_unit, number,
-                    [found](std::size_t row) { return Text(found->printed[row]); });
+                put(c, heading_of_shown(table_, c, words_), certificate::shown_unit(*found), number,
+                    [found](std::size_t row) { return Text(certificate::shown_cell(*found, row)); });
             }
             return;
         }
@@ -137,8 +138,8 @@ private:
     void add_of_result(const ShownColumn& c, const CertifiedColumn& of) {
         const std::string& unit = of.printed_unit;
         if (c.show == "value") {
-            put(c, heading_of_shown(table_, c, words_), unit, true, of,
-                [](const CertifiedValue& v) { return Text(v.printed_value); });
+            put(c, heading_of_shown(table_, c, words_), unit_of_value(of), true, of,
+                [this, &of](const CertifiedValue& v) { return Text(as_value(of, v.printed_value)); });
         } else if (c.show == "U") {
             put(c, words_("certificate", "U_short"), unit, true, of,
                 [](const CertifiedValue& v) { return Text(coverage_of(v) == Coverage::interval ? "" : v.printed_U); });
@@ -164,8 +165,18 @@ private:
 
     void add_limit(const ShownColumn& c, const CertifiedColumn& of, const char* head,
                    const std::function<std::string(const Verdict&)>& limit) {
-        put(c, words_("point_table", head), of.printed_unit, true, of,
-            [limit](const CertifiedValue& v) { return Text(v.verdict ? limit(*v.verdict) : ""); });
+        put(c, words_("point_table", head), unit_of_value(of), true, of, [this, &of, limit](const CertifiedValue& v) {
+            return Text(v.verdict ? as_value(of, limit(*v.verdict)) : "");
+        });
+    }
+
+    // As values of a result are printed; U and u are numbers of its unit.
+    [[nodiscard]] std::string as_value(const CertifiedColumn& of, const std::string& printed) const {
+        return certificate::in_form(printed, certificate::form_of_result(table_.layout, of.result), of.unit);
+    }
+    [[nodiscard]] std::string unit_of_value(const CertifiedColumn& of) const {
+        return certificate::unit_in_form(of.printed_unit, certificate::form_of_result(table_.layout, of.result),
+                                         of.unit);
     }
 
     void add_limits(const ShownColumn& c, const CertifiedColumn& of) {
@@ -196,8 +207,12 @@ private:
         const auto is_interval = [](const CertifiedValue& v) { return coverage_of(v) == Coverage::interval; };
         if (any(*of, is_interval)) {
             const auto column = [&](const char* head, std::string CertifiedValue::*text) {
-                put(c, words_("certificate", head), of->printed_unit, true, *of,
-                    [=](const CertifiedValue& v) { return Text(is_interval(v) ? v.*text : ""); });
+                const bool is_value = text != &CertifiedValue::printed_u;
+                put(c, words_("certificate", head), is_value ? unit_of_value(*of) : of->printed_unit, true, *of,
+                    [=, this](const CertifiedValue& v) {
+                        const std::string& printed = v.*text;
+                        return Text(!is_interval(v) ? "" : is_value ? as_value(*of, printed) : printed);
+                    });
             };
             if (any(*of, [&](const auto& v) { return is_interval(v) && !v.printed_u.empty(); })) {
                 column("u", &CertifiedValue::printed_u);

@@ -10,6 +10,7 @@ macro(gumcert_fuzz_target name)
     set(GUMCERT_FUZZ_${name} ${ARGN})
 endmacro()
 
+gumcert_fuzz_target(angle_text text)
 gumcert_fuzz_target(archive archive MUTATOR json)
 gumcert_fuzz_target(archive_file archive)
 gumcert_fuzz_target(archive_text archive_certificates MUTATOR json)

@@ -43,6 +43,7 @@ EVALUATED = (
     ("comparison/proficiency_test.json", ("html text csv", "en"), ("html", "zh-Hant")),
     ("everyday/multimeter/job.json", ("html text dcc", "en")),
     ("everyday/torque_wrench/job.json", ("text", "de")),
+    ("everyday/angle_gauges/job.json", ("text", "es")),
     ("laboratory/end_gauge.json", ("text", "en")),
 )
 STUDIES = (

@@ -25,7 +25,8 @@ FEW = (("everyday/torque_wrench/job.json", ("es",)), ("everyday/mass_set/job.jso
 ALL = tuple((job, LANGUAGES) for job in (
     "certificate/end_gauge.json", "certificate/rotary_table.json", "circle_closure/comparison.json",
     "circle_closure/indexing_tables.json", "circle_closure/job.json", "comparison/key_comparison.json",
-    "comparison/methods.json", "comparison/proficiency_test.json", "end_gauge/job.json", "everyday/gauge_blocks/job.json",
+    "comparison/methods.json", "comparison/proficiency_test.json", "end_gauge/job.json", "everyday/angle_gauges/job.json",
+    "everyday/gauge_blocks/job.json",
     "everyday/mass_set/job.json", "everyday/multimeter/job.json", "everyday/pt100/job.json", "everyday/torque_wrench/job.json",
     "gauge_block/job.json", "laboratory/end_gauge.json", "multimeter/job.json", "resistance_and_reactance/job.json",
     "rotary_table/job.json", "thermometer/job.json"))

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "certificate/certificate_fields.h"
+#include "certificate/point_tables.h"
 #include "encoding/sha2.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/unit.h"
@@ -241,12 +242,12 @@ void compare_texts(const Certificate& earlier, const Certificate& later, std::ve
 /// the formula from the rule, the guard band from the limits, a capability from the scope.
 struct PrintedMember {
     std::string_view at, kind;
-    enum class Unit { none, of_column, percent } unit = Unit::none;
+    enum class Unit { none, of_column, of_value, percent } unit = Unit::none;
     /// Stands in the table of verdicts only, which the certificate has where its results do not show their verdicts.
     bool of_verdict_table = false;
 };
 constexpr std::array<PrintedMember, 21> k_printed_members{{
-    {"/printed_value", "value", PrintedMember::Unit::of_column},
+    {"/printed_value", "value", PrintedMember::Unit::of_value},
     {"/printed_U", "U", PrintedMember::Unit::of_column},
     {"/printed_k", "k"},
     {"/printed_nu_eff", "nu_eff"},
@@ -257,10 +258,10 @@ constexpr std::array<PrintedMember, 21> k_printed_members{{
     {"/external", "external"},
     {"/verdict/verdict", "verdict"},
     {"/verdict/note", "note"},
-    {"/verdict/printed/lower", "limit_low", PrintedMember::Unit::of_column},
-    {"/verdict/printed/upper", "limit_high", PrintedMember::Unit::of_column},
-    {"/verdict/printed/acceptance_lower", "acceptance_low", PrintedMember::Unit::of_column, true},
-    {"/verdict/printed/acceptance_upper", "acceptance_high", PrintedMember::Unit::of_column, true},
+    {"/verdict/printed/lower", "limit_low", PrintedMember::Unit::of_value},
+    {"/verdict/printed/upper", "limit_high", PrintedMember::Unit::of_value},
+    {"/verdict/printed/acceptance_lower", "acceptance_low", PrintedMember::Unit::of_value, true},
+    {"/verdict/printed/acceptance_upper", "acceptance_high", PrintedMember::Unit::of_value, true},
     {"/verdict/printed/conformance_probability", "conformance_probability", PrintedMember::Unit::percent, true},
     {"/verdict/printed/specific_risk", "specific_risk", PrintedMember::Unit::percent, true},
     {"/verdict/printed/largest_specific_risk", "largest_specific_risk", PrintedMember::Unit::percent, true},
@@ -306,10 +307,20 @@ void show_value(const CertifiedTable& table, const CertifiedColumn& column, cons
     for (const StatedLeaf& stated : texts) {
         at.emplace(stated.at, stated.text);
     }
+    // Values in degrees, minutes and seconds have no unit behind them.
+    const std::string form = certificate::form_of_result(table.layout, column.result);
+    const auto as_value = [&](const std::string& printed) {
+        return with_unit(certificate::in_form(printed, form, column.unit),
+                         certificate::unit_in_form(column.printed_unit, form, column.unit));
+    };
     const auto show = [&](const PrintedMember& member) {
         const auto found = at.find(member.at);
         const bool is_printed = found != at.end() && !(in_results && member.of_verdict_table);
         const std::string text(is_printed ? found->second : std::string_view());
+        if (member.unit == PrintedMember::Unit::of_value) {
+            shown.push_back({std::string(member.kind), where, as_value(text)});
+            return;
+        }
         const std::string unit = member.unit == PrintedMember::Unit::of_column ? column.printed_unit
                                  : member.unit == PrintedMember::Unit::percent ? "%"
                                                                                : "";
@@ -317,11 +328,9 @@ void show_value(const CertifiedTable& table, const CertifiedColumn& column, cons
     };
     std::for_each(k_printed_members.begin(), k_printed_members.end(), show);
     // Both ends of an interval are one statement.
-    const std::string& unit = column.printed_unit;
-    shown.push_back({"interval", where,
-                     value.printed_low.empty()
-                         ? ""
-                         : with_unit(value.printed_low, unit) + " … " + with_unit(value.printed_high, unit)});
+    shown.push_back(
+        {"interval", where,
+         value.printed_low.empty() ? "" : as_value(value.printed_low) + " … " + as_value(value.printed_high)});
 }
 
 /// Title, headings and columns of a table, and what its rows have beside the results.
@@ -357,7 +366,8 @@ void show_layout(const CertifiedTable& table, std::vector<TableText>& shown) {
             if (row < column.printed.size()) {
                 const bool is_number = row < column.values.size() && column.values[row];
                 shown.push_back({is_number ? "cell" : "words", column.name + point,
-                                 with_unit(column.printed[row], is_number ? column.printed_unit : "")});
+                                 with_unit(certificate::shown_cell(column, row),
+                                           is_number ? certificate::shown_unit(column) : "")});
             }
         }
     }

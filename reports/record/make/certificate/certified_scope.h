@@ -49,6 +49,9 @@ struct ScopeAnswer {
 [[nodiscard]] ScopeAnswer scope_of(const certificate::CertificateData& data, const ScopePlace& place,
                                    const certificate::CapabilityInputs& inputs);
 
+/// Whether the job says by its role that a result is an error, a deviation or a correction.
+[[nodiscard]] bool is_difference_by_role(const ScopePlace& place);
+
 /// An input of the kind of a result that may be what the result is an error of.
 ///
 /// A result whose role says nothing, or says that it is an error without a place beside it, and that is less than half of

@@ -286,13 +286,34 @@ private:
         other.assumed = doubtful;
         const ScopeAnswer there = scope_of(data_of(place.table.section), other, inputs_);
         constexpr double k_same = 1.02;  // what two digits of U do not show
-        if (!there.capability || *there.capability <= k_same * *value.capability) {
-            return;
-        }
         const auto with_unit = [](const std::string& number, const std::string& unit) {
             const std::string people = gum::unit_for_people(unit);
             return people.empty() ? number : number + " " + people;
         };
+        const std::string named =
+            "\"" + doubtful->name + "\" = " + with_unit(text::shortest_plain(doubtful->value), doubtful->unit);
+        // What is no error may be a small quantity that the scope means; an error is within no scope of its own size.
+        if (!there.capability && is_difference_by_role(place)) {
+            constexpr double k_outside = 1e9;  // worse than any U
+            doubtful_.push_back(
+                {.table = &place.table,
+                 .column = &place.column,
+                 .row = place.row,
+                 .finding = {.id = "X12",
+                             .clause = "ILAC-P14:09/2020",
+                             .severity = certificate::FindingSeverity::major,
+                             .where = {},
+                             .what = "it is not said at which value \"" + place.column.result +
+                                     "\" was measured, and at " + named +
+                                     " the scope does not cover it: " + there.outside_because,
+                             .action = "State the role of its nominal value (\"role\": \"nominal\") in a column of "
+                                       "points that the table shows."},
+                 .badness = k_outside});
+            return;
+        }
+        if (!there.capability || *there.capability <= k_same * *value.capability) {
+            return;
+        }
         const double half_width = value.interval ? 0.5 * (value.interval->second - value.interval->first) : 0.0;
         const bool is_below = value.printed_U.empty()
                                   ? half_width < *there.capability
@@ -309,9 +330,7 @@ private:
                          .clause = "ILAC-P14:09/2020",
                          .severity = certificate::FindingSeverity::major,
                          .where = {},
-                         .what = "it is not said whether \"" + place.column.result + "\" is an error of \"" +
-                                 doubtful->name +
-                                 "\" = " + with_unit(text::shortest_plain(doubtful->value), doubtful->unit) +
+                         .what = "it is not said whether \"" + place.column.result + "\" is an error of " + named +
                                  ": the scope entry \"" + there.entry + "\" allows U from " +
                                  with_unit(certificate::printed_capability(*there.capability), place.column.unit) +
                                  " there, and U is stated as " + with_unit(U, place.column.unit),

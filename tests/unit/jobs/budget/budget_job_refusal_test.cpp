@@ -70,6 +70,8 @@ const std::vector<BadBudget>& bad_budgets() {
          x(R"j({"unit": "V", "u": 1})j") + R"j(, "points": [{"X": 1}], "certificate": {"specifications": [
              {"id": "s", "results": ["X"], "unit": "V", "rule": {"id": "DR-01"}, "limits": {"by": "points"}}]})j",
          code(k_point_without_limit), "job.json#/certificate", "the point states no limit"},
+        {"angle_in_parts_in_another_unit", x(R"j({"unit": "deg", "value": "12° 30'", "u": 1})j"),
+         code(k_angle_in_parts), "job.json#/inputs/X/value", "where the unit is deg"},
         {"accuracy_behind_the_open_one",
          x(R"j({"unit": "V", "u": 1})j") + R"j(, "points": {"columns": {"range": "text"}, "list": [
              {"X": 1, "range": "A"}]}, "certificate": {"specifications": [{"id": "s", "results": ["X"], "unit": "V",

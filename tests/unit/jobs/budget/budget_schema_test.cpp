@@ -44,6 +44,8 @@ TEST_F(BudgetSchemaTest, AgreesWithTheReader) {
         {good + R"j(, "monte_carlo": {"trials": 1000000.5})j", false},
         {good + R"j(, "points": [{"X": 3, "point": 1}, {"X": {"u": 1, "between_points": "common"}}])j", true},
         {good + R"j(, "points": [{"X": "3"}])j", false},
+        {R"j("inputs": {"X": {"unit": "arcsec", "value": "0° 30'", "u": 1}}, "points": [{"X": "12° 30' 05.0\""}])j",
+         true},
         {good + R"j(, "points": [{"X": {"unit": "mm"}}])j", false},
         {good + R"j(, "correlations": [["X", "X2"]])j", false},
         {good + R"j(, "certificate": 3)j", false},

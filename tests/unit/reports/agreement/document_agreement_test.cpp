@@ -32,7 +32,8 @@ const std::vector<std::pair<std::string, EvaluationRecord>>& example_certificate
         for (const char* const job :
              {"examples/certificate/end_gauge.json", "examples/everyday/pt100/job.json",
               "examples/everyday/mass_set/job.json", "examples/everyday/multimeter/job.json",
-              "examples/everyday/gauge_blocks/job.json", "examples/everyday/torque_wrench/job.json"}) {
+              "examples/everyday/gauge_blocks/job.json", "examples/everyday/torque_wrench/job.json",
+              "examples/everyday/angle_gauges/job.json"}) {
             records.emplace_back(job, evaluation::evaluate_job(k_agreement_tree / job, evaluation::CovarianceFile::none,
                                                                1, k_agreement_templates)
                                           .record);
@@ -97,6 +98,32 @@ TEST(DocumentsAndRecords, AgreeInEveryLanguageAndForm) {
 }
 
 // Law: what no certificate is, is told by its mark, in every language and with every pair of languages.
+/// Degrees, minutes and seconds: sums of readings by hand, in the decimal sign of each language.
+TEST(DocumentsAndRecords, PrintAnglesInTheirParts) {
+    const auto found = std::ranges::find_if(
+        example_certificates(), [](const auto& one) { return one.first.find("angle_gauges") != std::string::npos; });
+    ASSERT_NE(found, example_certificates().end());
+    EvaluationRecord record = found->second;
+    for (const char* const language : {"en", "de", "es", "zh-Hant"}) {
+        const std::string text = text_of_html(page_of(record, {language}));
+        const std::string sign = language == std::string("de") || language == std::string("es") ? "," : ".";
+        for (const auto& [angle, seconds] :
+             {std::pair("12°\u00A030′\u00A000", "59″"), std::pair("29°\u00A059′\u00A058", "78″"),
+              std::pair("0°\u00A000′\u00A030", "22″")}) {
+            EXPECT_THAT(text, HasSubstr(angle + sign + seconds)) << language;
+        }
+        EXPECT_THAT(text, HasSubstr("12°\u00A030′\u00A000″")) << "the nominal value as it was written";
+    }
+    certificate::CertifiedValue& value = record.certificate->tables.at(0).columns.at(0).values.at(3);
+    ASSERT_EQ(value.printed_value, "45000.59");
+    const std::string page = page_of(record, {"de"});
+    value.printed_value = "-45000.59";
+    EXPECT_NE(disagreement(page, record), "") << "the sign is compared";
+    EXPECT_EQ(disagreement(page_of(record, {"de"}), record), "");
+    value.printed_value = "45000.95";
+    EXPECT_NE(disagreement(page, record), "");
+}
+
 TEST(DocumentsAndRecords, DisagreeWhereAMarkSaysThatItIsNone) {
     const std::vector<std::pair<const char*, void (*)(EvaluationRecord&)>> states = {
         {"draft", [](EvaluationRecord& record) { record.certificate->blocked = true; }},

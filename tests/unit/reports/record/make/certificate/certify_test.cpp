@@ -572,6 +572,13 @@ TEST(Certify, TakesACapabilityWhereTheRoleSays) {
     EXPECT_EQ(found("measured_value"), "0.050");
     EXPECT_EQ(found("error"), "0.10") << "at its nominal value, as the scope has it there";
     EXPECT_EQ(found("error", ""), "0.050 X12") << "an error of nothing";
+    // A scope that ends below what it may be an error of covers no error of it, however small; a small quantity it may.
+    data.accreditation->scope[0].ranges[0].high = 10.0;
+    data.accreditation->scope[0].capability = test::capability_of_one_value(1.0, "mm");
+    EXPECT_EQ(found("error", ""), "0.050 X12");
+    EXPECT_EQ(found("deviation", ""), "0.050 X12");
+    EXPECT_EQ(found("", ""), "0.050");
+    EXPECT_EQ(found("measured_value", ""), "0.050");
 }
 
 /// An error is far less than what it is an error of, and so would be its share.

@@ -1,0 +1,121 @@
+#include "jobs/budget/angle_number.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "certificate/point_limits.h"
+#include "certificate/point_tables.h"
+#include "jobs/input_codes.h"
+#include "tests/support/budget_campaign.h"
+
+namespace gumcert::jobs {
+namespace {
+
+using test::budget_refusals;
+using test::read_budget;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+const std::string k_table =
+    R"j("model": ["E = phi_x + d_x - phi_s"],
+        "inputs": {"phi_x": {"unit": "arcsec", "role": "indication", "form": "sexagesimal"},
+                   "d_x": {"unit": "arcsec", "value": 0, "resolution": 0.1},
+                   "phi_s": {"unit": "arcsec", "constant": true}},
+        "outputs": {"E": {"unit": "arcsec", "role": "error"}},
+        "points": {"file": "points.csv", "columns": {
+            "nominal": {"unit": "arcsec", "role": "nominal", "form": "sexagesimal"}}})j";
+
+std::string refusal(const std::string& keys, const test::BudgetFiles& files = {}) {
+    std::string all;
+    for (const gum::Diagnostic& one : budget_refusals(keys, files)) {
+        all += one.code + " " + gum::message(one) + "\n";
+    }
+    return all;
+}
+
+TEST(AngleNumber, IsOneOfSecondsOrMinutes) {
+    ProblemList problems("job.json");
+    const auto angle = angle_number("-12° 30' 05.00\"", "arcsec", "here", problems);
+    ASSERT_TRUE(angle);
+    EXPECT_EQ(angle->value, -45005.0);
+    EXPECT_EQ(angle->written, "-45005.00");
+    EXPECT_EQ(angle_number("12° 30.5'", "arcmin", "here", problems).value().value, 750.5);
+    EXPECT_EQ(problems.refusals(), 0U);
+    for (const char* unit : {"deg", "m", "1", "rad"}) {
+        EXPECT_FALSE(angle_number("12° 30'", unit, "here", problems)) << unit;
+    }
+    EXPECT_FALSE(angle_number("12° 30' 05\"", "arcmin", "here", problems));
+    EXPECT_FALSE(angle_number("12° 75'", "arcsec", "here", problems));
+    EXPECT_EQ(problems.refusals(), 6U);
+}
+
+TEST(AngleNumber, HasTheDecimalsOfItsLastPart) {
+    const nlohmann::json angle = "12° 30' 05.00\"";
+    EXPECT_EQ(decimals_of_angle(&angle, "arcsec"), 2);
+    EXPECT_EQ(decimals_of_angle(&angle, "deg"), std::nullopt);
+    EXPECT_EQ(decimals_of_angle(nullptr, "arcsec"), std::nullopt);
+    const nlohmann::json number = 5.0;
+    EXPECT_EQ(decimals_of_angle(&number, "arcsec"), std::nullopt);
+}
+
+TEST(AngleNumber, StandsInCellsOfAnyTable) {
+    for (const char* table : {"nominal,phi_s,phi_x.1,phi_x.2\n"
+                              "0°,0.12'',0° 00' 00.3'',0° 00′ 00.2″\n"
+                              "12° 30',12° 30′ 04.98″,\"12° 30' 05.0\"\"\",45005.4''\n",
+                              "nominal;phi_s;phi_x.1;phi_x.2\n"
+                              "0;0,12'';0° 00' 00,3'';0° 00′ 00,2″\n"
+                              "12,5°;12° 30′ 04,98″;12° 30' 05,0'';12° 30' 05,4''\n"}) {
+        SCOPED_TRACE(table);
+        const BudgetJob job = read_budget(k_table, {{"points.csv", table}});
+        ASSERT_EQ(job.points.size(), 2U);
+        const certificate::PointColumn& nominal = job.point_columns.at(0);
+        EXPECT_EQ(nominal.values, (std::vector<std::optional<double>>{0.0, 45000.0}));
+        EXPECT_THAT(nominal.printed, ElementsAre("0", "45000"));
+        EXPECT_EQ(nominal.form, "sexagesimal");
+        const certificate::PointColumn& read = *certificate::column_named(job.point_columns, "phi_x");
+        EXPECT_THAT(read.printed, ElementsAre("0.25", "45005.20"));
+        EXPECT_EQ(read.form, "sexagesimal");
+    }
+}
+
+TEST(AngleNumber, StandsInTheJob) {
+    const BudgetJob job = read_budget(
+        R"j("model": ["E = a - b"],
+            "inputs": {"a": {"unit": "arcsec", "u": 0.1, "role": "indication"},
+                       "b": {"unit": "arcsec", "value": "30° 00' 00.50\"", "u": 0.1, "role": "reference"}},
+            "outputs": {"E": {"unit": "arcsec"}},
+            "points": {"columns": {"n": {"unit": "arcmin", "form": "sexagesimal"}},
+                       "list": [{"a": "30° 00' 01.0\"", "n": "30°"}, {"a": {"value": "-0° 00' 03\""}, "n": "0° 30.5'"}]})j");
+    EXPECT_THAT(job.point_columns.at(0).printed, ElementsAre("1800", "30.5"));
+    EXPECT_THAT(certificate::column_named(job.point_columns, "a")->printed, ElementsAre("108001.0", "-3"));
+    EXPECT_THAT(certificate::column_named(job.point_columns, "b")->printed, ElementsAre("108000.50", "108000.50"));
+}
+
+TEST(AngleNumber, IsRefusedWhereItMeansNoNumber) {
+    const auto in_table = [](const std::string& rows) {
+        return refusal(k_table, {{"points.csv", "nominal,phi_s,phi_x.1,phi_x.2\n" + rows}});
+    };
+    EXPECT_THAT(in_table("12° 60',0,0,1\n"), HasSubstr("GC-INPUT-0368"));
+    EXPECT_THAT(in_table("12° 30',0,12.5° 5',1'\n"), HasSubstr("points.csv:2:11"));
+    EXPECT_THAT(in_table("30°,0,0,1\n30,0,0,1\n"), HasSubstr("points.csv:3:1"));
+    EXPECT_EQ(in_table("30°,0,0,1\n0,0,0,1\n"), "") << "0 is 0 in every unit";
+    EXPECT_EQ(in_table("108000,0,0,1\n3.5,0,0,1\n"), "") << "numbers of the unit";
+    EXPECT_THAT(in_table("12° 30' 05\",0,0,1\n"), HasSubstr("two apostrophes"));
+    EXPECT_THAT(refusal(R"j("inputs": {"X": {"unit": "deg", "value": "12° 30'", "u": 0.1}})j"), HasSubstr("arcmin"));
+    EXPECT_THAT(refusal(R"j("inputs": {"X": {"unit": "arcsec", "value": "twelve", "u": 0.1}})j"),
+                HasSubstr("must be a number"));
+    EXPECT_THAT(refusal(R"j("inputs": {"X": {"unit": "deg", "value": 12, "u": 0.1, "form": "sexagesimal"}},
+                            "points": [{}])j"),
+                HasSubstr("GC-INPUT-0368"));
+    EXPECT_THAT(refusal(R"j("inputs": {"X": {"unit": "arcsec", "value": 12, "u": 0.1}},
+                            "outputs": {"X": {"unit": "deg", "form": "sexagesimal"}}, "points": [{}])j"),
+                HasSubstr("GC-INPUT-0368"));
+}
+
+}  // namespace
+}  // namespace gumcert::jobs
