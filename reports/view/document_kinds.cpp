@@ -131,10 +131,19 @@ void set_up(CertificateBuilder& builder, const Wording& words, const EvaluationR
                   rows);
 }
 
+/// Why no reversal is stated. Stations that were measured in one sense beside others in both have none either, nor has the
+/// sequential method, whose records list no visits.
+const char* no_reversal(const RotaryTable& r) {
+    const bool one_sense = !r.visits.empty() && std::ranges::all_of(r.visits, [&](const auto& visit) {
+        return visit.direction == r.visits.front().direction;
+    });
+    return one_sense ? "no_reversal" : "no_reversal_of_all";
+}
+
 void ranges(CertificateBuilder& builder, const Wording& words, const RotaryTable& r) {
     builder.paragraph(words("sentence", "ranges"));
     const bool by_angle = r.reversal_model && r.reversal_model->model == "by_angle";
-    builder.paragraph(words("sentence", r.reversal.empty() ? "no_reversal"
+    builder.paragraph(words("sentence", r.reversal.empty() ? no_reversal(r)
                                         : by_angle         ? "reversal_by_angle"
                                                            : "reversal"));
     Rows rows;

@@ -184,6 +184,48 @@ std::vector<std::size_t> stations_off_stated(const RotaryTableMeasurement& measu
         gum::Severity::error});
 }
 
+/// Distances do not tell a fixture from the one whose coordinates along the axis have the other sign: the mirror image of the
+/// whole table has the same ones, with error motions that are those of no table. Stated stations that stand just in the mirror image
+/// of where they are found have that sign, or the fixture has it.
+/// \throws gum::NoResultError  GC-ADJUST-0018
+void refuse_mirrored_frame(const RotaryTableMeasurement& measurement, const std::vector<Eigen::Vector3d>& found) {
+    constexpr double k_near = 0.15;  // [m], of a position to some centimetres, with the offset of the fixture
+    constexpr double k_far = 0.3;    // [m]: what is nearer to the plane of the origin is on no side
+    const int axial = axial_coordinate(measurement.axis);
+    std::vector<std::size_t> off;
+    for (std::size_t j = 0; j < found.size(); ++j) {
+        const std::optional<Eigen::Vector3d>& stated = measurement.station_start[j];
+        if (!stated) {
+            continue;
+        }
+        Eigen::Vector3d image = found[j];
+        image[axial] = -image[axial];
+        if ((image - *stated).norm() > k_near) {
+            return;
+        }
+        if ((found[j] - *stated).norm() > k_far) {
+            off.push_back(j);
+        }
+    }
+    if (off.empty()) {
+        return;
+    }
+    const std::size_t j = off.front();
+    const std::string axis(1, "xyz"[axial]);
+    throw gum::NoResultError(gum::Diagnostic{
+        "GC-ADJUST-0018", "station " + measurement.stations[j],
+        "it is stated near " + in_millimetres(measurement.station_start[j].value_or(Eigen::Vector3d::Zero())) +
+            ", and the distances fit with it near " + in_millimetres(found[j]) + ", where " + axis +
+            " has the other sign" + others_alike(measurement, off),
+        "the mirror image of a table has the same distances: what is stated of the stations and of the fixture agrees "
+        "on the sign along the axis",
+        "compare the sign of " + axis +
+            " in the coordinates of the fixture, which are those of a right-handed frame, and in the stations file, "
+            "and "
+            "correct the one that is wrong",
+        gum::Severity::error});
+}
+
 /// The best one of the tables that were adjusted, and the others.
 class Rivals {
 public:
@@ -427,6 +469,7 @@ void settle_rival_tables(const ObservedStations& observed, const std::vector<boo
         rivals.consider(*std::move(mirrored), RivalTable::nearly_mirrored);
     }
     rivals.decide();
+    refuse_mirrored_frame(observed.measurement(), stations_of(placed));
 }
 
 }  // namespace gumcert::engine

@@ -51,7 +51,8 @@ constexpr double k_robust_scale = 10.0;
 /// \param solver              for all
 /// \param degrees_of_freedom  of each
 /// \param placed              solved; becomes the better one
-/// \throws gum::NoResultError  GC-RANK-0001 where two fit alike, and no position is stated
+/// \throws gum::NoResultError  GC-RANK-0001 where two fit alike, and no position is stated; GC-ADJUST-0016 where the distances
+///                             speak against stated positions; GC-ADJUST-0018 where these are those of the mirror image of all
 void settle_rival_tables(const ObservedStations& observed, const std::vector<bool>& active,
                          const StochasticModel& stochastic, const SolverOptions& solver, double degrees_of_freedom,
                          PlacedAdjustment& placed);

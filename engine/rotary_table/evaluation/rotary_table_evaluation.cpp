@@ -78,6 +78,22 @@ bool is_concentrated(const RotaryTableMeasurement& measurement, const std::vecto
     });
 }
 
+/// "P1, P4": of the stations where others have both senses of approach; "" where none or all have them.
+std::string stations_in_one_sense(const RotaryTableMeasurement& measurement) {
+    std::vector<std::array<bool, 2>> senses(measurement.stations.size(), {false, false});
+    for (const LengthObservation& length : measurement.lengths) {
+        senses[length.station][length.approach == Approach::positive ? 0 : 1] = true;
+    }
+    std::string stations;
+    for (std::size_t j = 0; j < senses.size(); ++j) {
+        if (!(senses[j][0] && senses[j][1])) {
+            stations += (stations.empty() ? "" : ", ") + measurement.stations[j];
+        }
+    }
+    const bool is_mixed = std::ranges::any_of(senses, [](const auto& both) { return both[0] && both[1]; });
+    return is_mixed ? stations : "";
+}
+
 /// The distance that fits worst is left out, one after the other: of few distances more than unknowns this can go on until nothing
 /// is left that could object, and what remains agrees with itself whichever distances are the wrong ones.
 void require_rest_that_can_object(std::size_t left_out, Eigen::Index degrees_of_freedom, std::size_t lengths) {
@@ -1274,7 +1290,12 @@ Adjusted adjust_and_test(const RotaryTableMeasurement& measurement, StartSearch&
         std::ranges::move(group_notes(*solution.groups, measurement), std::back_inserter(solution.notes));
     }
     if (!adjustment.has_reversal()) {
-        solution.notes.push_back({"GC-REVERSAL-0001", "reversal", "not reported",
+        const std::string stations = stations_in_one_sense(measurement);
+        solution.notes.push_back({"GC-REVERSAL-0001", "reversal",
+                                  stations.empty() ? "not reported"
+                                                   : "not reported: measured in one sense of approach alone, and "
+                                                     "the others in both: " +
+                                                         stations,
                                   "every station must be measured in both senses of approach to separate it", "",
                                   gum::Severity::note});
     }

@@ -115,6 +115,7 @@ void WrongLabels::refuse(Asked asked) {
     }
     for (const std::size_t j : open) {
         if (!tried_two_places_[j]) {
+            refuse_angles_of_pass(measurement_, j, misfits_[j]);
             refuse_two_places(measurement_, j, misfits_[j]);
             tried_two_places_[j] = true;
         }

@@ -19,6 +19,7 @@ namespace gumcert::reports {
 namespace {
 
 using nlohmann::json;
+using ::testing::AllOf;
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -93,6 +94,21 @@ TEST(RotaryCertificate, PositioningHasParametersAndTargets) {
     EXPECT_THAT(text, HasSubstr("from 5 runs in the positive (↑) and 5 runs in the negative (↓) sense of approach"));
     EXPECT_THAT(text, HasSubstr("u = 0.092″"));
     EXPECT_THAT(text, HasSubstr("Five runs in each direction: the positional deviations are corrected for nothing."));
+}
+
+// One sense was said to have been measured wherever no reversal was determined.
+TEST(RotaryCertificate, WhyNoReversalIsStatedIsTrueOfTheVisits) {
+    EvaluationRecord r = test::sample_record();
+    r.rotary->reversal.clear();
+    const std::string one = "Only one sense of approach was measured";
+    const std::string all = "that takes both senses of approach at every station";
+    r.rotary->visits = {{.station = "P1", .pass = "1", .direction = "+"},
+                        {.station = "P2", .pass = "2", .direction = "+"}};
+    EXPECT_THAT(rotary_text_of(r), AllOf(HasSubstr(one), Not(HasSubstr(all))));
+    r.rotary->visits[1].direction = "-";
+    EXPECT_THAT(rotary_text_of(r), AllOf(HasSubstr(all), Not(HasSubstr(one))));
+    r.rotary->visits.clear();  // of the sequential method
+    EXPECT_THAT(rotary_text_of(r), AllOf(HasSubstr(all), Not(HasSubstr(one))));
 }
 
 TEST(RotaryCertificate, AdjustmentShowsBothFactorsAndTheTestInWords) {

@@ -20,6 +20,7 @@
 #include "engine/rotary_table/variance_components.h"
 #include "gum/quantity/diagnostic.h"
 #include "tests/support/few_reflectors.h"
+#include "tests/support/small_campaign.h"
 
 namespace gumcert::engine {
 namespace {
@@ -233,6 +234,32 @@ TEST(RivalTables, StatedPositionsNeverDecideAgainstTheDistances) {
         }
     }
     EXPECT_GE(refused, 2U);
+}
+
+// A fixture whose coordinates along the axis have the other sign has the distances of the mirror image of the table: error motions
+// of no table were stated, with nothing but the stations against them.
+TEST(RivalTables, AFixtureOfTheOtherSignAlongTheAxisIsRefusedByStatedPositions) {
+    const Campaign campaign = measured(ring_of_few(3, 5, {0.02, 0.16}, 330.0, 0.0005));
+    const int axial = axial_coordinate(campaign.measurement.axis);
+    for (const bool is_mirrored : {false, true}) {
+        for (const double along : {0.0, 0.4}) {
+            RotaryTableMeasurement measurement = campaign.measurement;
+            measurement.fixture.col(axial) *= is_mirrored ? -1.0 : 1.0;
+            // 40 cm along the axis: in a frame with another origin, which tells nothing of the sign.
+            for (std::size_t j = 0; j < measurement.stations.size(); ++j) {
+                Eigen::Vector3d position = campaign.truth.stations[j] + Eigen::Vector3d(0.03, -0.02, 0.01);
+                position[axial] += along;
+                measurement.station_start[j] = position;
+            }
+            const std::vector<gum::Diagnostic> problems =
+                synthetic::problems_of([&] { (void)evaluate_jointly(measurement, EvaluationOptions{}); });
+            ASSERT_EQ(problems.size(), is_mirrored && along == 0.0 ? 1U : 0U) << along;
+            if (!problems.empty()) {
+                EXPECT_EQ(problems[0].code, "GC-ADJUST-0018");
+                EXPECT_NE(problems[0].what.find("where x has the other sign"), std::string::npos) << problems[0].what;
+            }
+        }
+    }
 }
 
 }  // namespace

@@ -2,11 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <cstddef>
+#include <functional>
 #include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "engine/rotary_table/start/place_search.h"
 #include "tests/support/small_campaign.h"
 
 namespace gumcert::engine {
@@ -44,6 +47,35 @@ TEST(ShiftedAngles, AnglesOfItsOwnWithoutAPatternAreNone) {
         measurement.angles[a] += 0.01 * static_cast<double>((a * a) % 7);
     }
     EXPECT_NO_THROW(refuse_shifted_angles(measurement));
+}
+
+/// What is said where the second pass of P2 has the angle that `stated` makes of each, by its number in the turn of twelve.
+std::vector<gum::Diagnostic> problems_of_second_pass(const std::function<std::size_t(std::size_t)>& stated) {
+    RotaryTableMeasurement measurement = simulate(synthetic::small_plan()).measurement;
+    for (LengthObservation& length : measurement.lengths) {
+        if (length.station == 1 && length.approach == Approach::negative) {
+            length.angle = stated(length.angle);
+        }
+    }
+    const double misfit = PlaceSearch(measurement).fit_of(1, true).upright_misfit();
+    return synthetic::problems_of([&] { refuse_angles_of_pass(measurement, 1, misfit); });
+}
+
+// They were told as a station that stood in two places, or as distances that fit no rigid table.
+TEST(ShiftedAngles, OfAPassAreToldWithTheOtherPass) {
+    EXPECT_TRUE(problems_of_second_pass([](std::size_t k) { return k; }).empty());
+    const auto told = [](const std::function<std::size_t(std::size_t)>& stated) {
+        const std::vector<gum::Diagnostic> problems = problems_of_second_pass(stated);
+        if (problems.size() != 1U) {
+            return std::to_string(problems.size()) + " problems";
+        }
+        return problems[0].code + ", " + problems[0].where + ": " + problems[0].what;
+    };
+    const std::string pass =
+        "GC-ADJUST-0013, lengths, station P2, pass P2/2: its distances agree with those of pass P2/1 when ";
+    EXPECT_EQ(told([](std::size_t k) { return (k + 1) % 12; }), pass + "its angles are 30° lower");
+    EXPECT_EQ(told([](std::size_t k) { return (k + 10) % 12; }), pass + "its angles are 60° higher");
+    EXPECT_EQ(told([](std::size_t k) { return 11 - k; }), pass + "its angles are stated in the reverse order");
 }
 
 }  // namespace
