@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "gum/conformity/conformity.h"
+#include "tests/support/case_count.h"
 
 namespace gumcert::gum {
 namespace {
@@ -161,6 +162,8 @@ double middle_of(const ToleranceLimits& limits) {
                               : *limits.upper - 1.0;
 }
 
+const int k_times = gumcert::test::cases(1, 2);
+
 /// Calls a law for every rule, kind of limits and shape, many times.
 void for_all(std::uint64_t seed, int times,
              const std::function<void(Random&, const Rule&, const ToleranceLimits&, const Shape&)>& law) {
@@ -251,7 +254,7 @@ TEST(ConformityProperties, MovingFurtherOutsideNeverImprovesTheVerdict) {
             const double from = shape.one_peak ? middle_of(limits) : direction > 0.0 ? *limits.upper : *limits.lower;
             double y = from;
             int before = 0;
-            for (int step = 0; step < 30; ++step) {
+            for (int step = 0; step < 20; ++step) {
                 const ConformityVerdict verdict =
                     decide_conformity(rule.rule, rule.parameters, limits, shape.at(y)).verdict;
                 ASSERT_GE(rank(verdict), before) << named(rule, limits, shape, y);
@@ -263,7 +266,7 @@ TEST(ConformityProperties, MovingFurtherOutsideNeverImprovesTheVerdict) {
 }
 
 TEST(ConformityProperties, NoValueThatPassesHasALargerRiskThanOneThatFails) {
-    for_all(540, 2, [](Random& random, const Rule& rule, const ToleranceLimits& limits, const Shape& shape) {
+    for_all(540, k_times, [](Random& random, const Rule& rule, const ToleranceLimits& limits, const Shape& shape) {
         if (!shape.one_peak && rule.rule != DecisionRule::specific_risk) {
             return;  // guard bands are symmetric, and the risks of a skewed distribution are not
         }
@@ -286,7 +289,7 @@ TEST(ConformityProperties, NoValueThatPassesHasALargerRiskThanOneThatFails) {
 }
 
 TEST(ConformityProperties, OnePlaceOneScaleAndOneSideAreAsGoodAsAnother) {
-    for_all(8, 2, [](Random& random, const Rule& rule, const ToleranceLimits& limits, const Shape& shape) {
+    for_all(8, k_times, [](Random& random, const Rule& rule, const ToleranceLimits& limits, const Shape& shape) {
         const double scale = random.log_uniform(1e-6, 1e6);
         const double shift = random.uniform(-5.0, 5.0);
         const double sign = random.uniform(0.0, 1.0) < 0.5 ? -1.0 : 1.0;

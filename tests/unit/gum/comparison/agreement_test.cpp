@@ -13,6 +13,7 @@
 #include "gum/coverage.h"
 #include "gum/quantity/dense_factors.h"
 #include "gum/quantity/diagnostic.h"
+#include "tests/support/case_count.h"
 #include "tests/unit/gum/printed.h"
 
 namespace gumcert::gum {
@@ -336,6 +337,9 @@ TEST(FiniteDegrees, SumOfSquaresIsOneOfSquaredT) {
 // was 1 (0.0004), and a difference of two such tails was a power of −0.7.
 TEST(FiniteDegrees, OfManyPoints) {
     for (const Index m : {60, 200, 500, 1000, 2000}) {
+        if (m > gumcert::test::cases(500, 2000)) {
+            break;  // the time grows with m³
+        }
         double before = 0.0;
         for (const double f : {0.8, 0.95, 1.05, 1.2}) {
             MethodDifferences differences = independent_points(m, 0.5 * std::sqrt(f));
@@ -413,7 +417,7 @@ TEST(FiniteDegrees, HonestComparisonsDisagreeAtTheLevel) {
                 const Index m = nu % 4 == 0 ? 20 : 8;
                 const VectorXd t = VectorXd::LinSpaced(m, 0.0, 100.0);
                 const bool is_exact = nu == 0 || (r == 0.0 && !at_once);  // bounds take longer, and leave room
-                const int runs = is_exact ? 200 : 40;
+                const int runs = is_exact ? gumcert::test::cases(80, 200) : gumcert::test::cases(16, 40);
                 int disagreements = 0;
                 for (int run = 0; run < runs; ++run) {
                     const MethodDifferences of = honest(engine, m, nu, r, at_once);
