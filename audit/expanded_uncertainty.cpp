@@ -342,6 +342,20 @@ std::size_t behind_brackets(const Pieces& pieces, std::size_t open) {
     return open;
 }
 
+/// "4711" behind "certificate" or "No.": a whole number, which nothing says to be one of a unit.
+bool is_number_of_document(const Pieces& pieces, std::size_t i) {
+    const std::size_t back = i > 1 && pieces[i - 1].is_sign(".") ? 2 : 1;  // "No. 4711"
+    if (i < back || i >= pieces.size() || !pieces[i].is_number()) {
+        return false;
+    }
+    const Piece& before = pieces[i - back];
+    const Piece& number = pieces[i];
+    return (is_word_of(before, {"cert", "no", "nr", "number", "nummer", "report"}) ||
+            begins_with_one_of(before, {"certif", "zertifik", "kalibrierschein", "prufschein"})) &&
+           number.value >= 1.0 && std::floor(number.value) == number.value && !number.percent && !number.plus_minus &&
+           (number.unit.empty() || number.unit == "k" || number.unit == "p");
+}
+
 /// The piece at which the expression of U begins that a symbol or the words name; nothing where none follows.
 /// \param by_words  "expanded uncertainty": other words may stand before the number
 std::optional<Start> start_of_expression(const Pieces& pieces, std::size_t symbol, bool by_words) {
@@ -354,7 +368,9 @@ std::optional<Start> start_of_expression(const Pieces& pieces, std::size_t symbo
     while (i < pieces.size() && !ends_sentence(pieces[i])) {
         const Piece& piece = pieces[i];
         const bool of_coverage = piece.raw == "k" || piece.raw == "p" || piece.word == "factor";
-        if (piece.is_number()) {
+        if (is_number_of_document(pieces, i)) {
+            ++i;
+        } else if (piece.is_number()) {
             constexpr double k_least_probability = 0.5;
             const bool is_probability = piece.percent && std::abs(piece.value) >= k_least_probability &&
                                         !(i > 0 && is_assignment(i - 1) && !by_words);

@@ -97,6 +97,28 @@ TEST(ExpandedUncertainty, IsNoneOfOtherWords) {
 }
 
 /// The law: whatever U is a function of, and however it is stated, no number but that of U is taken.
+/// The law: whatever number a certificate has, U is what is stated beside it, or nothing.
+TEST(ExpandedUncertainty, IsNeverTheNumberOfACertificate) {
+    for (const std::string name : {"certificate", "calibration certificate No.", "cert.", "Kalibrierschein",
+                                   "Zertifikat Nr.", "certificate number", "report"}) {
+        for (const std::string number : {"12", "4711", "2025"}) {
+            for (const std::string opening :
+                 {"expanded uncertainty of ", "Expanded U from ", "erweiterte Unsicherheit aus "}) {
+                for (const std::string behind : {"", " (k = 2)", " k=2", ", k = 2"}) {
+                    const std::string text = opening + name + " " + number + behind;
+                    const std::optional<ExpandedInWords> none = words(text);
+                    EXPECT_TRUE(!none || none->value != std::stod(number)) << text;
+                    const std::optional<ExpandedInWords> U = words(text + ": 0.20 bar");
+                    EXPECT_TRUE(!U || U->value == 0.20) << text;
+                }
+            }
+        }
+    }
+    EXPECT_EQ(words("expanded uncertainty of certificate 4711: 0.20 bar, k = 2")->value, 0.20);
+    EXPECT_EQ(words("expanded uncertainty of certificate 3 bar")->value, 3.0) << "its unit says what it is";
+    EXPECT_EQ(words("expanded uncertainty from certificate 0.20")->value, 0.20);
+}
+
 TEST(ExpandedUncertainty, IsNeverAnArgument) {
     const auto number = [](double value) { return text::shortest_plain(value); };
     for (const double U : {0.004, 0.2, 2.5}) {
