@@ -12,9 +12,10 @@
 
 #include "engine/fixed_parts.h"
 #include "engine/median.h"
+#include "engine/rotary_table/fixture_tests.h"
+#include "engine/rotary_table/group_judgement.h"
 #include "engine/rotary_table/visit_effects.h"
 #include "gum/quantity/dense_factors.h"
-#include "gum/quantity/diagnostic.h"
 
 namespace gumcert::engine {
 
@@ -25,10 +26,9 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double k_median_of_absolute_normal = 0.674489750196082;
-constexpr double k_spread_of_robust_scale = 1.17;         // times 1/sqrt(n): standard deviation of its relative error
-constexpr double k_deviate_of_power = 0.841621233572914;  // of the normal distribution, for 80 %
-constexpr std::size_t k_most_suspects = 40;               // groups that are taken away one after the other
-constexpr int k_most_steps = 18;                          // by which the angles of a station are looked at to be off
+constexpr double k_spread_of_robust_scale = 1.17;  // times 1/sqrt(n): standard deviation of its relative error
+constexpr std::size_t k_most_suspects = 40;        // groups that are taken away one after the other
+constexpr int k_most_steps = 18;                   // by which the angles of a station are looked at to be off
 constexpr double k_most_amplitude = 3.5;  // of the effect of angles that are off: J/(J - 2) of three stations is 3
 constexpr double k_most_off_of_reversal = 0.4;  // of the reversal: by more an effect is not that of interchanged senses
 constexpr double k_least_expansion = -10e-6;    // [1/K], of what a fixture is made of
@@ -43,18 +43,6 @@ constexpr std::size_t k_most_angle_bounds = 36;    // between which a reflector 
 constexpr std::size_t k_most_fixture_places = 40;  // at which the fixture is looked at to have been moved
 constexpr double k_seen_of_fixture = 1e-4;         // of what its motion does to the distances: less is not seen
 constexpr std::size_t k_fewest_of_place = 4;       // distances: three always agree with some place of a reflector
-
-/// Value of chi-square that is exceeded with a probability.
-double critical_chi_square(const GroupTestOptions& options, double probability, int degrees_of_freedom) {
-    double low = 0.0;
-    double high = 1e4;
-    // By bisection of the tail that the caller gives: the engine may not use the layer that has quantiles (ADR 0001).
-    for (int i = 0; i < 80; ++i) {
-        const double middle = 0.5 * (low + high);
-        (options.chi_square_upper_tail(middle, degrees_of_freedom) > probability ? low : high) = middle;
-    }
-    return high;
-}
 
 /// Kinds that have their level from kinds of one side, and no row of their own where nothing is wrong.
 bool only_where_suspicious(GroupKind kind) {
@@ -94,7 +82,7 @@ class GroupSearch {
 public:
     GroupSearch(const JointAdjustment& adjustment, const NormalEquations& normal, const BorderedCovariance& covariance,
                 const GroupTestOptions& options)
-        : adjustment_(adjustment), options_(options), visits_(adjustment, normal, covariance) {
+        : adjustment_(adjustment), judgement_(options), visits_(adjustment, normal, covariance) {
         for (std::size_t g = 0; g < visits_.size(); ++g) {
             poses_.push_back(adjustment.pose_jacobian(g));
         }
@@ -111,7 +99,8 @@ public:
         // that its effects elsewhere are not reported as causes of their own.
         std::vector<std::optional<Candidate>> last;
         for (std::size_t round = 0; round < std::min(k_most_suspects, visits_.size() / 4); ++round) {
-            misfit_of_fixture_ = largest_fixture_misfit();
+            misfit_of_fixture_ =
+                largest_fixture_misfit(fixture_misfit(), adjustment_.measurement().fixture, judgement_);
             const std::optional<Candidate> senses = best_senses();
             std::optional<Candidate> place = best_place();
             if (is_interchange(place, senses)) {
@@ -150,7 +139,9 @@ public:
             search_succession();
             search_stations();
         }
-        search_fixture();
+        const std::vector<GroupTest> of_fixture =
+            fixture_tests(fixture_misfit(), adjustment_.measurement().fixture, judgement_);
+        result_.tests.insert(result_.tests.end(), of_fixture.begin(), of_fixture.end());
         std::stable_sort(result_.tests.begin(), result_.tests.end(), [](const GroupTest& a, const GroupTest& b) {
             return a.suspicious != b.suspicious ? a.suspicious : a.suspicious && is_less_probable(a, b);
         });
@@ -228,39 +219,8 @@ private:
         }
     }
 
-    /// Chi-square of one of several tests of a kind, with its probability and its limit.
-    /// \throws gum::NoResultError  GC-ADJUST-0015 where it is no sum of squares: distances that are off by metres leave rounding
-    ///                             that is larger than what the other groups say
-    GroupTest judged(GroupKind kind, double chi_square, int degrees_of_freedom, std::size_t count) const {
-        constexpr double k_rounding = 1e-3;  // below what any test tells from 0; of exact distances it may lie below 0
-        chi_square = std::abs(chi_square) < k_rounding ? std::max(chi_square, 0.0) : chi_square;
-        if (!(chi_square >= 0.0)) {
-            throw gum::NoResultError(gum::Diagnostic{
-                "GC-ADJUST-0015", "tests of groups",
-                "the distances fit no rigid table that turns by the stated angles: they differ from it by so much that "
-                "what a group of them says is lost in rounding",
-                "what a place of the station leaves are error motions, far below a millimetre",
-                "compare units and signs of the distances of each station, and the names of reflectors and stations, "
-                "with the protocol of the measurement",
-                gum::Severity::error});
-        }
-        GroupTest test;
-        test.kind = kind;
-        test.degrees_of_freedom = degrees_of_freedom;
-        test.family = count;
-        test.chi_square = chi_square;
-        test.p_value = options_.chi_square_upper_tail(chi_square, degrees_of_freedom);
-        const double level =
-            share_of_level(kind) * options_.alpha / static_cast<double>(std::max<std::size_t>(count, 1));
-        // The level is divided among all tests of a kind (Bonferroni): alpha is the probability of a false alarm in the
-        // whole measurement.
-        const auto [limit, is_new] = limits_.try_emplace({degrees_of_freedom, level}, 0.0);
-        if (is_new) {
-            limit->second = critical_chi_square(options_, level, degrees_of_freedom);
-        }
-        test.critical_value = limit->second;
-        test.suspicious = test.p_value < level;
-        return test;
+    [[nodiscard]] GroupTest judged(GroupKind kind, double chi_square, int degrees_of_freedom, std::size_t count) const {
+        return judgement_.judged(kind, chi_square, degrees_of_freedom, count);
     }
 
     void place(GroupTest& test, std::size_t visit) const {
@@ -298,13 +258,6 @@ private:
         std::function<void()> take_away;
     };
 
-    static bool is_less_probable(const GroupTest& a, const GroupTest& b) {
-        // Far out both probabilities are 0 in double; then the misfit counts, less two for each degree of freedom.
-        if (a.p_value != b.p_value) {
-            return a.p_value < b.p_value;
-        }
-        return a.chi_square - 2.0 * a.degrees_of_freedom > b.chi_square - 2.0 * b.degrees_of_freedom;
-    }
     static void take(std::optional<Candidate>& best, Candidate candidate) {
         if (!best || is_less_probable(candidate.test, best->test)) {
             best = std::move(candidate);
@@ -1303,134 +1256,23 @@ private:
         keep(std::move(all));
     }
 
-    /// V⁻¹v and M of the coordinates of the fixture, less what is already explained.
-    struct FixtureMisfit {
-        VectorXd weighted;
-        MatrixXd spread;
-        double least = 0.0;  ///< of the weight of a coordinate, below which nothing else controls it
-
-        void take_away(const MatrixXd& effect) {
-            const MatrixXd across = spread * effect;
-            const MatrixXd inverse =
-                pseudo_inverse(effect.transpose() * across, least * effect.colwise().squaredNorm().maxCoeff()).inverse;
-            weighted -= across * (inverse * (effect.transpose() * weighted).eval());
-            spread -= across * inverse * across.transpose();
-        }
-    };
-
-    static MatrixXd effect_of_point(std::size_t point, Index coordinates) {
-        MatrixXd effect = MatrixXd::Zero(coordinates, 3);
-        effect.block<3, 3>(static_cast<Index>(3 * point), 0).setIdentity();
-        return effect;
-    }
-    /// Coordinates of the fixture: what a relative change of its size does to them.
-    [[nodiscard]] MatrixXd effect_of_fixture_scale() const {
-        const Eigen::MatrixX3d& points = adjustment_.measurement().fixture;
-        return points.transpose().reshaped(points.size(), 1);
-    }
-
-    [[nodiscard]] std::optional<GroupTest> reflector_test(const FixtureMisfit& misfit, std::size_t point,
-                                                          std::size_t points) const {
-        const auto at = static_cast<Index>(3 * point);
-        const Inverted inverted = pseudo_inverse(misfit.spread.block<3, 3>(at, at), misfit.least);
-        if (inverted.rank == 0) {
-            return std::nullopt;
-        }
-        const Eigen::Vector3d pull = misfit.weighted.segment<3>(at);
-        const Eigen::Vector3d error = inverted.inverse * pull;
-        GroupTest test = judged(GroupKind::reflector, pull.dot(error), inverted.rank, points);
-        test.reflector = point;
-        test.estimate = error.norm();
-        test.minimal_detectable =
-            (std::sqrt(test.critical_value) + k_deviate_of_power) * std::sqrt(inverted.inverse.trace() / inverted.rank);
-        return test;
-    }
-
-    /// The scale of the fixture is controlled where the distances know theirs.
-    [[nodiscard]] std::optional<GroupTest> scale_test(const FixtureMisfit& misfit) const {
-        const VectorXd effect = effect_of_fixture_scale();
-        const double spread = effect.dot(misfit.spread * effect);
-        if (!(spread > misfit.least * effect.squaredNorm())) {
-            return std::nullopt;
-        }
-        const double pull = effect.dot(misfit.weighted);
-        GroupTest test = judged(GroupKind::fixture_scale, pull * pull / spread, 1, 1);
-        test.estimate = pull / spread;
-        test.minimal_detectable = (std::sqrt(test.critical_value) + k_deviate_of_power) / std::sqrt(spread);
-        return test;
-    }
-
+    /// What the distances say of the coordinates of the fixture.
     [[nodiscard]] FixtureMisfit fixture_misfit() const {
         // Where the distances see hardly anything of a coordinate its residual is rounding, and it is not tested.
         return {visits_.weighted_fixture(), visits_.own_fixture(),
                 1e-6 * visits_.whitening_fixture().colwise().squaredNorm().minCoeff()};
     }
-    /// The most that a displaced reflector or the scale of the fixture explains; 0 where neither is suspicious.
-    [[nodiscard]] double largest_fixture_misfit() const {
-        const FixtureMisfit misfit = fixture_misfit();
-        const auto points = static_cast<std::size_t>(misfit.weighted.size() / 3);
-        double largest = 0.0;
-        const auto consider = [&largest](const std::optional<GroupTest>& test) {
-            if (test && test->suspicious) {
-                largest = std::max(largest, test->chi_square);
-            }
-        };
-        consider(scale_test(misfit));
-        for (std::size_t m = 0; m < points && points > 3; ++m) {
-            consider(reflector_test(misfit, m, points));
-        }
-        return largest;
-    }
-
-    /// The fixture as a whole and its points, one at a time: what is least probable is taken away before the next.
-    void search_fixture() {
-        FixtureMisfit misfit = fixture_misfit();
-        const auto points = static_cast<std::size_t>(misfit.weighted.size() / 3);
-        std::vector<bool> out(points, false);
-        bool is_scaled = false;
-        // Three points make a frame: of as many nothing controls the others.
-        for (std::size_t round = 0; round + 3 < points; ++round) {
-            std::optional<GroupTest> worst;
-            for (std::size_t m = 0; m < points; ++m) {
-                const std::optional<GroupTest> test = out[m] ? std::nullopt : reflector_test(misfit, m, points);
-                if (test && (!worst || is_less_probable(*test, *worst))) {
-                    worst = test;
-                }
-            }
-            const std::optional<GroupTest> scale = is_scaled ? std::nullopt : scale_test(misfit);
-            if (scale && round == 0 && !scale->suspicious) {
-                result_.tests.push_back(*scale);
-            }
-            const bool is_scale = scale && scale->suspicious && (!worst || is_less_probable(*scale, *worst));
-            if (is_scale) {
-                result_.tests.push_back(*scale);
-                misfit.take_away(effect_of_fixture_scale());
-                is_scaled = true;
-                continue;
-            }
-            if (!worst || (!worst->suspicious && round > 0)) {
-                return;
-            }
-            result_.tests.push_back(*worst);
-            if (!worst->suspicious) {
-                return;
-            }
-            misfit.take_away(effect_of_point(worst->reflector, misfit.weighted.size()));
-            out[worst->reflector] = true;
-        }
-    }
 
     const JointAdjustment& adjustment_;
-    const GroupTestOptions& options_;
+    GroupJudgement judgement_;
     VisitEffects visits_;
     std::vector<MatrixXd> poses_;
     std::vector<Index> reversal_;  ///< parameters of one reversal of all angles; empty: there is none
     std::vector<VisitTest> tests_;
     std::vector<std::vector<std::size_t>> sequences_;
-    mutable std::map<std::pair<int, double>, double> limits_;  ///< by degrees of freedom and level
-    double misfit_of_fixture_ = 0.0;                           ///< largest_fixture_misfit() of this round
-    double used_scale_ = 1.0, pose_scale_ = 1.0;               ///< of common errors, of poses
-    std::vector<bool> moved_;                                  ///< by station: its angles were found to be others
+    double misfit_of_fixture_ = 0.0;              ///< of this round
+    double used_scale_ = 1.0, pose_scale_ = 1.0;  ///< of common errors, of poses
+    std::vector<bool> moved_;                     ///< by station: its angles were found to be others
     /// Cᵀ M C of angles that are off, with which each later round begins.
     struct IndexSpread {
         double value = 0.0;
