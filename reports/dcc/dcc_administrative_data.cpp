@@ -489,22 +489,25 @@ void place(DccWriter& w) {
 }
 
 /// "identification, owner": of several items that do not have it in common, behind what each is called.
-void stated_by_customer(DccWriter& w) {
+void statement_of_customer(DccWriter& w) {
     const CertificateData& d = w.data();
     const Wording& words = w.words();
     std::vector<const certificate::Item*> items = certificate::items_of(d);
     if (items.empty()) {
         items.push_back(&d.item);
     }
-    const std::vector<std::string> first = stated_by_customer(d, *items.front());
-    const bool is_common =
-        std::ranges::all_of(items, [&](const auto* one) { return stated_by_customer(d, *one) == first; });
+    std::vector<std::vector<std::string>> stated;
+    for (const certificate::Item* one : items) {
+        stated.push_back(stated_by_customer(d, *one));
+    }
+    const bool is_common = std::ranges::all_of(stated, [&](const auto& keys) { return keys == stated.front(); });
     if (is_common) {
         items.resize(1);
     }
-    for (const certificate::Item* one : items) {
+    for (std::size_t i = 0; i < items.size(); ++i) {
+        const certificate::Item* one = items[i];
         Text names;
-        for (const std::string& key : stated_by_customer(d, *one)) {
+        for (const std::string& key : stated[i]) {
             names += (names.empty() ? Text() : Text(", ")) +
                      (words.has("certificate", key) ? words("certificate", key) : Text(key));
         }
@@ -522,7 +525,7 @@ void stated_by_customer(DccWriter& w) {
 void texts_of_laboratory(DccWriter& w) {
     const CertificateData& d = w.data();
     const Wording& words = w.words();
-    stated_by_customer(w);
+    statement_of_customer(w);
     if (d.adjustment) {
         w.statement("adjustment", adjustment_sentence(d, *d.adjustment, words));
     }
