@@ -269,5 +269,20 @@ INSTANTIATE_TEST_SUITE_P(FourSets, RotaryTableTruth,
                          testing::Values("a_axis", "b_axis_perfect_table", "c_axis_single_target", "a_axis_outliers"),
                          [](const auto& set) { return std::string(set.param); });
 
+/// Two right distances in the place of the wrong ones were left out, and a repeatability of the table took up the rest: error
+/// motions of a millimetre, 600 times their U off, were a result. Degrees of freedom remained; none of them was of the noise.
+TEST(RotaryTableTruth, IsNotStatedWhereARepeatabilityMakesUpForAnotherChoiceOfDistances) {
+    const jobs::RotaryTableJob job = jobs::read_rotary_table_job(k_data / "a_axis_several_blunders" / "job.json");
+    try {
+        (void)engine::evaluate_jointly(job.measurement, options_of(job.measurement));
+        FAIL() << "a result";
+    } catch (const gum::NoResultError& error) {
+        ASSERT_EQ(error.diagnostics().size(), 1U);
+        const gum::Diagnostic& why = error.diagnostics().front();
+        EXPECT_EQ(why.code, "GC-ADJUST-0017");
+        EXPECT_NE(why.what.find("2 of 90 distances left out, with a redundancy of 0.0"), std::string::npos) << why.what;
+    }
+}
+
 }  // namespace
 }  // namespace gumcert

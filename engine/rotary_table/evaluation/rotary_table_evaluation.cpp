@@ -95,18 +95,30 @@ std::string stations_in_one_sense(const RotaryTableMeasurement& measurement) {
 }
 
 /// The distance that fits worst is left out, one after the other: of few distances more than unknowns this can go on until nothing
-/// is left that could object, and what remains agrees with itself whichever distances are the wrong ones.
-void require_rest_that_can_object(std::size_t left_out, Eigen::Index degrees_of_freedom, std::size_t lengths) {
-    if (static_cast<Eigen::Index>(left_out) <= degrees_of_freedom) {
+/// is left that could object, and what remains agrees with itself whichever distances are the wrong ones. A repeatability of the
+/// table that is estimated takes up what a false choice leaves: then it is the redundancy of the length noise that could object.
+/// \param length_redundancy  [1]; 0: not known
+void require_rest_that_can_object(std::size_t left_out, Eigen::Index degrees_of_freedom, double length_redundancy,
+                                  std::size_t lengths) {
+    constexpr std::size_t k_several = 2;  // one stands out by itself
+    constexpr double k_least_of_each = 2.0;
+    const bool is_of_few = static_cast<Eigen::Index>(left_out) > degrees_of_freedom;
+    const bool is_taken_up = left_out >= k_several && length_redundancy > 0.0 &&
+                             length_redundancy < k_least_of_each * static_cast<double>(left_out);
+    if (!is_of_few && !is_taken_up) {
         return;
     }
     throw gum::NoResultError(gum::Diagnostic{
         "GC-ADJUST-0017", "outlying distances",
         std::to_string(left_out) + " of " + std::to_string(lengths) + " distances left out, with " +
-            text::degrees_of_freedom(std::to_string(degrees_of_freedom)) + " that remain" +
-            (degrees_of_freedom == 1 ? "s" : ""),
-        "at least as many degrees of freedom as distances that are left out must remain: with fewer, another choice "
-        "of distances agrees as well",
+            (is_of_few
+                 ? text::degrees_of_freedom(std::to_string(degrees_of_freedom)) + " that remain" +
+                       (degrees_of_freedom == 1 ? "s" : "")
+                 : "a redundancy of " + text::significant(length_redundancy, 2) + " that remains to the length noise"),
+        is_of_few ? "at least as many degrees of freedom as distances that are left out must remain: with fewer, "
+                    "another choice of distances agrees as well"
+                  : "a redundancy of the length noise of two must remain for each of several distances that are left "
+                    "out: with less, the repeatability of the table makes up for another choice of them",
         "measure more stations, reflectors or passes, or look for the cause of the deviations and correct the "
         "distances",
         gum::Severity::error});
@@ -1194,7 +1206,8 @@ Adjusted adjust_and_test(const RotaryTableMeasurement& measurement, StartSearch&
     solution.degrees_of_freedom = solution.observations - solution.parameters;
     require_rest_that_can_object(static_cast<std::size_t>(std::ranges::count_if(
                                      solution.reliability, [](const DistanceReliability& row) { return row.removed; })),
-                                 solution.degrees_of_freedom, measurement.lengths.size());
+                                 solution.degrees_of_freedom, iteration.step.length_redundancy,
+                                 measurement.lengths.size());
     solution.iterations = iteration.iterations;
     solution.chi_square = normal.chi_square();
     solution.condition_number = normal.condition_number();
