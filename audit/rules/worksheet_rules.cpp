@@ -452,16 +452,19 @@ void deviation_by_n(const WorksheetView& view, const RowAt& at, FindingCollector
 
 /// Whether a node of a formula is a standard deviation of readings: a function of them, or a cell with one or called so.
 bool is_deviation(const WorksheetView& view, const SheetFormula& formula, const FormulaNode& node) {
-    const auto is_function = [](const Formula& of) { return calls(of, {"STDEV", "STDEV.S", "STDEVA"}); };
+    // Of itself alone: STDEV(…)/SQRT(n) is that of the mean.
+    const auto is_function = [](const Formula& of) {
+        return is_call(of.nodes[of.root()], {"STDEV", "STDEV.S", "STDEVA"});
+    };
     const std::optional<CellPlace> cell = view.cell_of(formula, node);
     if (!cell) {
         return is_call(node, {"STDEV", "STDEV.S", "STDEVA"});
     }
     const SheetFormula* of_cell = view.formula_at(*cell);
-    const std::string label = view.label(*cell);
+    const std::string label = " " + view.label(*cell);  // "s of" is a word, and no end of "readings of"
     return (of_cell != nullptr && is_function(of_cell->formula)) ||
-           (of_cell == nullptr && !says(label, {"mean", "mittel"}) &&
-            says(label, {"standard deviation", "standardabweichung", "stdev", "std dev", "s of "}));
+           (of_cell == nullptr && !says(label, {"mean", "mittel", "average"}) &&
+            says(label, {"standard deviation", "standardabweichung", "stdev", "std dev", " s of "}));
 }
 
 /// W04: s/n in place of s/√n, of a row that says how many readings there are.
