@@ -149,11 +149,15 @@ void refuse_angles_of_pass(const RotaryTableMeasurement& measurement, std::size_
             const AngleReading reading = shifted(read, other.lengths, -shift);
             if (agree_when_read(std::move(read), station, *reference, other, reading, limit)) {
                 const double degrees = std::round(std::abs(shift) / gum::k_degree * 1e6) / 1e6;
-                refuse_pass(measurement, station, other.pass,
-                            "its distances agree with those of pass " + name + " when its angles are " +
-                                degrees_text(degrees) + (shift > 0.0 ? " lower" : " higher"),
-                            "see at which angle each of the two passes began, and correct the angles of the one that "
-                            "is wrong");
+                refuse_pass(
+                    measurement, station, other.pass,
+                    "its distances agree with those of pass " + name + " when its angles are " + degrees_text(degrees) +
+                        (shift > 0.0 ? " lower" : " higher"),
+                    "see at which angle each of the two passes began, and correct the angles of the one that "
+                    "is wrong; or, where the station was moved or stations are interchanged in one of them, "
+                    "give each place its own station name: these are " +
+                        std::to_string(std::lround(1e3 * (other.fit.position - reference->fit.position).norm())) +
+                        " mm apart");
             }
         }
     }
