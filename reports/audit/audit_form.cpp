@@ -60,8 +60,10 @@ const AuditForm& audit_form(std::string_view name) {
 
 const AuditForm* audit_form_of(std::string_view file) {
     const auto form = std::ranges::find_if(k_audit_forms, [file](const AuditForm& one) {
-        const std::string_view ending = one.file.substr(one.file.rfind('.'));
-        return file.size() > ending.size() && file.ends_with(ending);
+        const auto ends_with = [file](const std::string& ending) {
+            return file.size() > ending.size() && file.ends_with(ending);
+        };
+        return ends_with(std::string(one.file.substr(one.file.rfind('.')))) || ends_with("." + std::string(one.name));
     });
     return form == k_audit_forms.end() ? nullptr : &*form;
 }

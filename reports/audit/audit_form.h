@@ -35,7 +35,7 @@ struct AuditForm {
 /// \throws std::invalid_argument  if there is none
 [[nodiscard]] const AuditForm& audit_form(std::string_view name);
 
-/// The form that the ending of a file's name means: "budget.txt" is text, "budget.html" HTML.
+/// The form that the ending of a file's name means: "budget.txt" and "budget.text" are text, "budget.html" HTML.
 /// \return none where it means no form of an audit
 [[nodiscard]] const AuditForm* audit_form_of(std::string_view file);
 

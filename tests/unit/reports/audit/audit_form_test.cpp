@@ -18,7 +18,8 @@ TEST(AuditForm, IsFoundByItsNameAndByTheEndingOfAFile) {
         EXPECT_EQ(audit_form_of(form.file), &form) << form.file;
     }
     EXPECT_EQ(audit_form_of("budget.txt"), &audit_form("text")) << "its file ends so, whatever its name";
-    EXPECT_EQ(audit_form_of("budget.text"), nullptr);
+    EXPECT_EQ(audit_form_of("budget.text"), &audit_form("text"));
+    EXPECT_EQ(audit_form_of("budget.doc"), nullptr);
     EXPECT_EQ(audit_form_of("json"), nullptr);
     EXPECT_EQ(audit_form_of(".json"), nullptr) << "a hidden file without an ending";
     EXPECT_THROW((void)audit_form("txt"), std::invalid_argument);
