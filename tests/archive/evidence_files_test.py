@@ -469,7 +469,7 @@ def main():
                 both.judge(f"{field} of entry {index} is {value!r}", made_anew(changed(plain, ("entries", index, field), set_to(value))))
         head = json.loads((folder / "late.json").read_bytes())
         for path in places(head):
-            for change in (removed, *map(set_to, rng.sample(VALUES, max(1, options.changes // 40)))):
+            for change in (removed, *map(set_to, rng.sample(VALUES, min(len(VALUES), max(1, options.changes // 40))))):
                 if path:
                     other = changed(head, path, change)
                     both.judge(f"head, {path}", other, trust=rng.random() < 0.3)
