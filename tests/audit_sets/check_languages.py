@@ -104,7 +104,7 @@ def main() -> int:
     )
     with ThreadPoolExecutor(2) as pool:
         problems = [problem for found in pool.map(audits.problems, range(len(files)), files) for problem in found]
-    print("\n".join(problems) or f"{len(files)} files in {len(LANGUAGES)} languages")
+    print("\n".join(problems) or f"{len(files)} files, each in {len(LANGUAGES) if options.all else 1} of {len(LANGUAGES)} languages")
     return 1 if problems else 0
 
 

@@ -254,7 +254,7 @@ TEST(ConformityProperties, MovingFurtherOutsideNeverImprovesTheVerdict) {
             const double from = shape.one_peak ? middle_of(limits) : direction > 0.0 ? *limits.upper : *limits.lower;
             double y = from;
             int before = 0;
-            for (int step = 0; step < 20; ++step) {
+            for (int step = 0; step < gumcert::test::cases(20, 30); ++step) {
                 const ConformityVerdict verdict =
                     decide_conformity(rule.rule, rule.parameters, limits, shape.at(y)).verdict;
                 ASSERT_GE(rank(verdict), before) << named(rule, limits, shape, y);
