@@ -85,6 +85,10 @@ TEST(WorksheetFindings, W04SeesADeviationOverN) {
     }
     EXPECT_TRUE(found(row, "=G1/G2", "sum of the deviations", "9").empty());
     EXPECT_TRUE(found(row, "=G1/G2", "standard deviation of the mean", "9").empty());
+    for (const char* const other : {"differences of both readings", "half range of readings of the scale",
+                                    "standard deviation, average of 10 readings", "mass of 10 sheets"}) {
+        EXPECT_TRUE(found(row, "=G1/G2", other, "9").empty()) << other;
+    }
     EXPECT_TRUE(found("Repeatability", "=G1/10", label, "4").empty()) << "ten of what?";
 }
 
