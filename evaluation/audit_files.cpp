@@ -4,6 +4,7 @@
 #include <array>
 #include <iterator>
 #include <map>
+#include <new>
 #include <optional>
 #include <string_view>
 #include <system_error>
@@ -415,6 +416,20 @@ AuditedFile audit_file(const fs::path& file, unsigned threads, const fs::path& t
     AuditedFile audited = audited_as_it_is(file, threads, templates, progress, laboratory, {});
     audit::accept_findings(audited.report, waivers, audit::all_rules());
     return audited;
+}
+
+std::string AuditAttempt::reason() const {
+    try {
+        std::rethrow_exception(failure);
+    } catch (const gum::DiagnosedError& error) {
+        const std::size_t more = error.diagnostics().size() - 1;
+        return gum::message(error.diagnostics().front()) +
+               (more == 0 ? "" : " (and " + std::to_string(more) + " more)");
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const std::exception& error) {
+        return error.what();
+    }
 }
 
 std::vector<AuditAttempt> audit_files(const std::vector<FileToAudit>& files, unsigned threads,

@@ -73,6 +73,9 @@ struct AuditAttempt {
     std::optional<reports::AuditedFileView> view;  ///< as documents of this program show it
     bool has_critical = false;                     ///< a critical finding that nobody accepts
     std::exception_ptr failure;                    ///< what audit_file() threw, where it is not audited
+
+    /// Why it is not audited, for documents: the first refusal, and how many more there are.
+    [[nodiscard]] std::string reason() const;
 };
 
 /// Who keeps the work on files of others within walls: each may do the work with walls around it, which may end the process.

@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <exception>
 #include <filesystem>
 #include <functional>
 #include <nlohmann/json.hpp>
@@ -73,19 +72,6 @@ fs::path numbers_file(const Destination& to) {
     return fs::path(to.files.front().second).replace_extension(".json");
 }
 
-/// Why a file was refused, as it is told on the terminal.
-std::string reason_of(const std::exception_ptr& failure) {
-    try {
-        std::rethrow_exception(failure);
-    } catch (const gum::DiagnosedError& error) {
-        const std::size_t more = error.diagnostics().size() - 1;
-        return gum::message(error.diagnostics().front()) +
-               (more == 0 ? "" : " (and " + std::to_string(more) + " more)");
-    } catch (const std::exception& error) {
-        return error.what();
-    }
-}
-
 }  // namespace
 
 ExitCode audit_files(const std::vector<std::string>& files, const AuditOptions& options, const CommonOptions& common) {
@@ -152,8 +138,7 @@ ExitCode audit_files(const std::vector<std::string>& files, const AuditOptions& 
         evaluation::AuditAttempt& attempt = attempts[i];
         const ExitCode one = explained(common, [&] {
             if (attempt.failure) {
-                unaudited.push_back(
-                    {.file = files_to_audit.files[i].file.string(), .because = reason_of(attempt.failure)});
+                unaudited.push_back({.file = files_to_audit.files[i].file.string(), .because = attempt.reason()});
                 evaluation::naming_job(files_to_audit.files[i].file, files_to_audit.files.size() > 1,
                                        [&] { std::rethrow_exception(attempt.failure); });
             }

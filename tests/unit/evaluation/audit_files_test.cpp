@@ -152,7 +152,8 @@ TEST(AuditFiles, KeepWallsAroundEachEvaluationAndAllTables) {
                  });
              },
          .of_reading = {}});
-    EXPECT_TRUE(ended[0].failure);
+    ASSERT_TRUE(ended[0].failure);
+    EXPECT_THAT(ended[0].reason(), HasSubstr("is used up"));
     EXPECT_TRUE(ended[1].failure);
     EXPECT_TRUE(ended[2].view);
     fs::remove_all(all);
