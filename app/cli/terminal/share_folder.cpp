@@ -53,6 +53,27 @@ std::string executable_digest() {
     return digest_of_program_file(executable());
 }
 
+namespace {
+
+/// That came with this program; empty where none lies beside it.
+fs::path own_share_folder() {
+    std::error_code error;
+    fs::path folder = executable().parent_path();
+    for (int level = 0; level < 6 && !folder.empty(); ++level, folder = folder.parent_path()) {
+        for (const fs::path& candidate : {folder / "share" / "gumcert", folder}) {
+            if (fs::exists(candidate / "templates" / "certificate.html.mustache", error)) {
+                return candidate;
+            }
+        }
+        if (folder == folder.root_path()) {
+            break;
+        }
+    }
+    return {};
+}
+
+}  // namespace
+
 fs::path share_folder(const std::string& given) {
     std::error_code error;
     if (!given.empty()) {
@@ -64,16 +85,8 @@ fs::path share_folder(const std::string& given) {
         }
         return given;
     }
-    fs::path folder = executable().parent_path();
-    for (int level = 0; level < 6 && !folder.empty(); ++level, folder = folder.parent_path()) {
-        for (const fs::path& candidate : {folder / "share" / "gumcert", folder}) {
-            if (fs::exists(candidate / "templates" / "certificate.html.mustache", error)) {
-                return candidate;
-            }
-        }
-        if (folder == folder.root_path()) {
-            break;
-        }
+    if (fs::path own = own_share_folder(); !own.empty()) {
+        return own;
     }
     throw gum::StorageError(gum::Diagnostic{"GC-STORE-0010", "templates", "the folder of templates was not found",
                                             "documents need the templates that come with the program",
@@ -128,10 +141,10 @@ reports::RenderAssets render_assets(const std::string& share, std::vector<std::s
     result.changed_templates = digest == k_template_digest ? "" : digest.substr(0, k_shown_digits);
     result.node_program = program_on_path("node");
     std::error_code error;
-    // Whoever changes templates copies them, and no program: what sets PDFs is the one that came with this program then.
-    result.node_modules =
-        (fs::is_directory(folder / "node_modules", error) || share.empty() ? folder : share_folder("")) /
-        "node_modules";
+    // Whoever changes templates copies them, and no program: what sets PDFs is the one that came with this program then. Where
+    // there is none, the PDF says so; other forms need none.
+    const fs::path own = fs::is_directory(folder / "node_modules", error) ? fs::path() : own_share_folder();
+    result.node_modules = (own.empty() ? folder : own) / "node_modules";
     const fs::path temporary = fs::temp_directory_path(error);  // only the PDF needs it, and says so when it is missing
     result.temporary_folder = error ? fs::path("/tmp") : temporary;
     result.languages = std::move(languages);
