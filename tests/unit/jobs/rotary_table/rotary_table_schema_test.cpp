@@ -99,7 +99,7 @@ TEST_F(JobSchemaTest, AcceptsTheJobsOfTheSimulatedCampaigns) {
             ++count;
         }
     }
-    EXPECT_EQ(count, 4);
+    EXPECT_EQ(count, 5);
 }
 
 TEST_F(JobSchemaTest, AcceptsTheShippedExamples) {

@@ -396,7 +396,7 @@ TEST(Render, WorksWithoutOptionalParts) {
     home.rotary->errors[0].errors[0].printed = {.value = "0", .U = "", .unit = "µm"};
     const std::string home_text = squeezed(render_text(home, assets()));
     EXPECT_THAT(home_text, HasSubstr("Datum: the home position."));
-    EXPECT_THAT(home_text, HasSubstr("the reversal was not determined"));
+    EXPECT_THAT(home_text, HasSubstr("reversal was not determined: that takes both senses"));
     EXPECT_THAT(home_text, HasSubstr("flagged no distance"));
     EXPECT_THAT(home_text, HasSubstr(" 0 0 – "));
 }
