@@ -37,6 +37,7 @@ SOURCES = (
     "reports/record/make/certificate/environment_findings.cpp",
     "reports/record/make/comparison/evaluate_laboratories.cpp",
     "reports/record/make/comparison/laboratory_notes.cpp",
+    "reports/record/make/comparison/method_remarks.cpp",
     "reports/record/make/rotary_table/location_error_record.cpp",
     "reports/record/make/rotary_table/rotary_findings.cpp",
     "reports/record/make/rotary_table/rotary_monte_carlo_record.cpp",
@@ -67,6 +68,7 @@ NOT_IN_RECORDS = (
 
 FORMS = re.compile(r"\{[a-z_]+\?([^|}]*)\|([^}]*)\}")  # reports/forms_of_number.h
 LITERAL = re.compile(r'"((?:[^"\\]|\\.)*)"')
+ESCAPED = re.compile(r"\\u([0-9A-Fa-f]{4})")
 
 
 def without_comments(source: str) -> str:
@@ -81,7 +83,8 @@ def without_comments(source: str) -> str:
 def texts_of(source: str) -> list[str]:
     """The string literals, those beside each other as one."""
     joined = re.sub(r'"\s*\n\s*"', "", without_comments(source))
-    return [text.replace('\\"', '"').replace("\\\\", "\\") for text in LITERAL.findall(joined)]
+    return [ESCAPED.sub(lambda code: chr(int(code[1], 16)), text).replace('\\"', '"').replace("\\\\", "\\")
+            for text in LITERAL.findall(joined)]
 
 
 def is_sentence(text: str) -> bool:

@@ -174,9 +174,9 @@ private:
         }
         const bool rests_on_it = whole().verdict == gum::AgreementVerdict::correlation_unknown;
         if (rests_on_it && whole().worst && whole().worst->count_above_1 == 0) {
-            say("No |En| is above 1 for the worst plausible correlation, either; but with what both methods may share "
-                "the "
-                "differences together contradict what is left of their uncertainty.");
+            say("No |En| is above 1 for the worst plausible correlation, either; but with what both methods may share, "
+                "it "
+                "is not excluded that the differences together contradict what is left of their uncertainty.");
         }
         const std::size_t above = whole().agreement.count_above_1;
         const std::size_t above_for_worst = whole().worst ? whole().worst->count_above_1 : 0;
