@@ -276,9 +276,7 @@ private:
                 "an entry is as it was when it was written");
         }
         if ((entry.seq == 1) != (entry.hash == evidence_.head.archive) || entry.at > evidence_.head.at ||
-            (entry.seq == evidence_.head.size &&
-             (entry.hash != evidence_.head.chain || entry.at != evidence_.head.at ||
-              (!evidence_.head.clock.empty() && clock_of(entry) != evidence_.head.clock))) ||
+            (entry.seq == evidence_.head.size && !ends_with(evidence_.head, entry.hash, entry.at, clock_of(entry))) ||
             root_of_proof(entry.hash, static_cast<std::size_t>(entry.seq - 1),
                           static_cast<std::size_t>(evidence_.head.size), proven.proof) != evidence_.head.root) {
             add("GC-ARCHIVE-0048", where, "its proof does not lead to the head",

@@ -103,10 +103,13 @@ std::optional<Head> WalkedLog::head_since(const Head& earlier) const {
     return later;
 }
 
+bool ends_with(const Head& head, std::string_view chain, std::string_view at, std::string_view clock) {
+    return head.chain == chain && head.at == at && (head.clock.empty() || head.clock == clock);
+}
+
 bool is_same_log(const Head& one, const Head& other) {
-    // Heads from before clocks were stated have none.
-    return one.root == other.root && one.chain == other.chain && one.at == other.at &&
-           (one.clock == other.clock || one.clock.empty() || other.clock.empty());
+    return one.root == other.root &&
+           (ends_with(one, other.chain, other.at, other.clock) || ends_with(other, one.chain, one.at, one.clock));
 }
 
 const std::string& time_of(const Head& head) {

@@ -67,6 +67,8 @@ private:
 /// \param proves  whether the one head proves that it extends the other
 [[nodiscard]] bool leads_to(const Head& later, const Head& earlier, const std::vector<Head>& known,
                             const std::function<bool(const Head&, const Head&)>& proves = proves_extension);
+/// Whether a head says this of the last entry that it speaks of; one from before clocks were stated says nothing of its clock.
+[[nodiscard]] bool ends_with(const Head& head, std::string_view chain, std::string_view at, std::string_view clock);
 /// Whether two heads of one size say the same of it.
 [[nodiscard]] bool is_same_log(const Head& one, const Head& other);
 /// When the last entry was written, as far as it says: by its clock, or by the log.

@@ -130,6 +130,13 @@ LogTimes::SetBack LogTimes::set_back() const {
     return found;
 }
 
+nlohmann::json to_json(const LogTimes::SetBack& set_back) {
+    return {{"entries", set_back.entries},
+            {"entries_ahead", set_back.ahead},
+            {"certificates", set_back.certificates},
+            {"earliest", set_back.earliest}};
+}
+
 std::string in_words(const LogTimes::SetBack& set_back) {
     if (set_back.entries == 0) {
         return "";

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <set>
 #include <string>
@@ -62,6 +63,8 @@ private:
     std::int64_t seq_of_earliest_ = 0;
 };
 
+/// The same for programs.
+[[nodiscard]] nlohmann::json to_json(const LogTimes::SetBack& set_back);
 /// The same as a line for a reader; "" where no entry states its clock.
 [[nodiscard]] std::string in_words(const LogTimes::SetBack& set_back);
 

@@ -218,8 +218,8 @@ private:
                 "the archive has " + text::count_of(static_cast<std::int64_t>(log_.tree().size()), "entry"), rule,
                 action);
         } else if (const auto& [chain, at, clock] = chains_[static_cast<std::size_t>(head.size) - 1];
-                   log_.tree().root(static_cast<std::size_t>(head.size)) != head.root || chain != head.chain ||
-                   at != head.at || (!head.clock.empty() && clock != head.clock)) {
+                   log_.tree().root(static_cast<std::size_t>(head.size)) != head.root ||
+                   !ends_with(head, chain, at, clock)) {
             add("GC-ARCHIVE-0045", where, "the entries of the archive up to there are others", rule, action);
         }
     }

@@ -339,11 +339,7 @@ VerifiedFile verified_store(Store& store, const TrustedHeads& heads,
                  {"heads", heads.all().size()},
                  {"trusted", heads.has_key() && !heads.all().empty() && heads.findings().empty()},
                  {"head", head},
-                 {"clocks_set_back",
-                  {{"entries", verification.set_back.entries},
-                   {"entries_ahead", verification.set_back.ahead},
-                   {"certificates", verification.set_back.certificates},
-                   {"earliest", verification.set_back.earliest}}},
+                 {"clocks_set_back", to_json(verification.set_back)},
                  {"times_to_come", to_come},
                  {"findings", as_json(said.findings)}};
     said.text = text::one_line(store.name()) + ": " + (said.sound() ? "sound" : "NOT SOUND") + "; " +

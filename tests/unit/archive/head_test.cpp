@@ -44,6 +44,10 @@ TEST(ArchiveHead, SaysWhatTheClockSaid) {
     EXPECT_EQ(time_of(head), head.clock);
     EXPECT_EQ(time_in_words(head), "2026-10-24T18:52:52Z (by its log 2026-11-24T18:52:52Z, of a clock that was ahead)");
     EXPECT_TRUE(is_same_log(head, sample_head())) << "a head from before it was stated";
+    EXPECT_TRUE(ends_with(head, head.chain, head.at, head.clock));
+    EXPECT_FALSE(ends_with(head, head.chain, head.at, "")) << "the entry states none";
+    EXPECT_TRUE(ends_with(sample_head(), head.chain, head.at, head.clock));
+    EXPECT_FALSE(ends_with(sample_head(), head.chain, head.clock, ""));
     Head other = head;
     other.clock = "2026-10-24T18:52:51Z";
     EXPECT_FALSE(is_same_log(head, other));
