@@ -453,16 +453,14 @@ void deviation_by_n(const WorksheetView& view, const RowAt& at, FindingCollector
 /// Whether a node of a formula is a standard deviation of readings: a function of them, or a cell with one or called so.
 bool is_deviation(const WorksheetView& view, const SheetFormula& formula, const FormulaNode& node) {
     // Of itself alone: STDEV(…)/SQRT(n) is that of the mean.
-    const auto is_function = [](const Formula& of) {
-        return is_call(of.nodes[of.root()], {"STDEV", "STDEV.S", "STDEVA"});
-    };
+    const auto is_function = [](const FormulaNode& of) { return is_call(of, {"STDEV", "STDEV.S", "STDEVA"}); };
     const std::optional<CellPlace> cell = view.cell_of(formula, node);
     if (!cell) {
-        return is_call(node, {"STDEV", "STDEV.S", "STDEVA"});
+        return is_function(node);
     }
     const SheetFormula* of_cell = view.formula_at(*cell);
     const std::string label = " " + view.label(*cell);  // "s of" is a word, and no end of "readings of"
-    return (of_cell != nullptr && is_function(of_cell->formula)) ||
+    return (of_cell != nullptr && is_function(of_cell->formula.nodes[of_cell->formula.root()])) ||
            (of_cell == nullptr && !says(label, {"mean", "mittel", "average"}) &&
             says(label, {"standard deviation", "standardabweichung", "stdev", "std dev", " s of "}));
 }

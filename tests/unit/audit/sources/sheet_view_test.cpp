@@ -43,14 +43,21 @@ TEST(SheetView, ReadsNumbersWithUnits) {
     EXPECT_NE(open_sign("b!B1", "1.200").english().find("1.200"), std::string::npos);
 }
 
+/// What a view says of a sheet whose one cell, 0.30, has a number format.
+auto of_cell_with_format(const std::string& format, const auto& say) {
+    workbook::Workbook workbook = test::workbook_of({{"A1", "0.30"}});
+    workbook.number_formats = {format};
+    workbook.sheets[0].cells[0].number_format = 0;
+    const workbook::Evaluation evaluation = workbook::evaluate_workbook(workbook);
+    const SheetView sheet(workbook, evaluation, 0, DecimalSign::point);
+    return say(sheet, *sheet.rows().at(1).front());
+}
+
 TEST(SheetView, ShowsTheUnitThatAFormatWritesBehindItsNumbers) {
     const auto shown = [](const std::string& format) {
-        workbook::Workbook workbook = test::workbook_of({{"A1", "0.30"}});
-        workbook.number_formats = {format};
-        workbook.sheets[0].cells[0].number_format = 0;
-        const workbook::Evaluation evaluation = workbook::evaluate_workbook(workbook);
-        const SheetView sheet(workbook, evaluation, 0, DecimalSign::point);
-        return sheet.number_with_unit(*sheet.rows().at(1).front())->unit;
+        return of_cell_with_format(format, [](const SheetView& sheet, const workbook::Cell& cell) {
+            return sheet.number_with_unit(cell)->unit;
+        });
     };
     for (const char* const format :
          {"0.000\" µm\"", "0.000\\ \"µm\"", "#,##0.00\" µm\"", "General\" µm\"", "0.00\\ µ\\m", "0.0E+00\" µm\"",
@@ -68,13 +75,9 @@ TEST(SheetView, ShowsTheUnitThatAFormatWritesBehindItsNumbers) {
 
 TEST(SheetView, MultipliesByAHundredWhereTheFormatDoes) {
     const auto shown = [](const std::string& format) {
-        workbook::Workbook workbook = test::workbook_of({{"A1", "0.30"}});
-        workbook.number_formats = {format};
-        workbook.sheets[0].cells[0].number_format = 0;
-        const workbook::Evaluation evaluation = workbook::evaluate_workbook(workbook);
-        const SheetView sheet(workbook, evaluation, 0, DecimalSign::point);
-        const workbook::Cell& cell = *sheet.rows().at(1).front();
-        return sheet.as_shown(*sheet.number_with_unit(cell), cell);
+        return of_cell_with_format(format, [](const SheetView& sheet, const workbook::Cell& cell) {
+            return sheet.as_shown(*sheet.number_with_unit(cell), cell);
+        });
     };
     for (const char* const format : {"0.00%", "0%", "0.0 %", "0.00%;-0.00%", "0.00%_)", "[Blue]0.00%"}) {
         EXPECT_DOUBLE_EQ(shown(format).number.value, 30.0) << format;
