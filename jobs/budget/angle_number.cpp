@@ -47,6 +47,10 @@ std::optional<WrittenNumber> angle_in(const std::string& written, const std::str
 
 }  // namespace
 
+bool is_angle_text(const nlohmann::json& value) {
+    return value.is_string() && text::has_angle_sign(value.get_ref<const std::string&>());
+}
+
 std::optional<WrittenNumber> angle_number(const std::string& written, const std::string& unit, const std::string& where,
                                           ProblemList& problems) {
     return angle_in(written, unit, where, problems, {});

@@ -16,6 +16,9 @@ struct WrittenNumber {
     std::string written;
 };
 
+/// Whether a value of a job is written as an angle with signs.
+[[nodiscard]] bool is_angle_text(const nlohmann::json& value);
+
 /// An angle in degrees, minutes and seconds, in a unit that has these parts.
 /// \return nothing when it was refused
 [[nodiscard]] std::optional<WrittenNumber> angle_number(const std::string& written, const std::string& unit,

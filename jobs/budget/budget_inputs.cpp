@@ -17,7 +17,6 @@
 #include "jobs/certificate/certificate_archive.h"
 #include "jobs/csv_table.h"
 #include "jobs/job_limits.h"
-#include "text/angle_text.h"
 #include "text/counts.h"
 #include "text/lists.h"
 #include "text/numbers.h"
@@ -759,7 +758,7 @@ void BudgetInputs::read_information(std::size_t column, const json& value, const
             into.printed.back() = digits_as_written(document_.number_as_written(at), value.get<double>());
             return;
         }
-        if (value.is_string() && text::has_angle_sign(value.get_ref<const std::string&>())) {
+        if (is_angle_text(value)) {
             if (const auto angle = angle_number(value.get_ref<const std::string&>(), into.unit, where, problems_)) {
                 into.values.back() = angle->value;
                 into.printed.back() = digits_as_written(angle->written, angle->value);
@@ -1002,7 +1001,7 @@ void BudgetInputs::read_point_array(const json& points, const std::string& point
                 note_decimals(*index, job.points.size(), document_.decimals_as_written(at));
                 overrides.emplace(*index, base.with("value", value.get<double>(), document_, at, problems_));
                 ++stated_[*index].overridden["value"];
-            } else if (value.is_string() && text::has_angle_sign(value.get_ref<const std::string&>())) {
+            } else if (is_angle_text(value)) {
                 if (const auto angle = angle_number(value.get_ref<const std::string&>(), stated_[*index].unit.text(),
                                                     document_.where(at), problems_)) {
                     note_decimals(*index, job.points.size(), text::most_decimals({&angle->written, 1}));

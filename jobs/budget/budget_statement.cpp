@@ -8,7 +8,6 @@
 #include "jobs/budget/angle_number.h"
 #include "jobs/budget/budget_statement_reader.h"
 #include "jobs/job_limits.h"
-#include "text/angle_text.h"
 #include "text/lists.h"
 #include "text/numbers.h"
 #include "text/visible_text.h"
@@ -236,8 +235,7 @@ bool StatementReader::read_value(bool may_be_absent) {
         set_value(0.0);
         return true;
     }
-    if (const json* stated = keys_.value("value");
-        stated != nullptr && stated->is_string() && text::has_angle_sign(stated->get_ref<const std::string&>())) {
+    if (const json* stated = keys_.value("value"); stated != nullptr && is_angle_text(*stated)) {
         const auto angle = angle_number(stated->get_ref<const std::string&>(), unit_.text(), keys_.where("value"),
                                         keys_.problems("value"));
         set_value(angle ? angle->value : 0.0);
