@@ -292,23 +292,26 @@ private:
         };
         const std::string named =
             "\"" + doubtful->name + "\" = " + with_unit(text::shortest_plain(doubtful->value), doubtful->unit);
+        const auto note = [&](std::string what, std::string action, double badness) {
+            doubtful_.push_back({.table = &place.table,
+                                 .column = &place.column,
+                                 .row = place.row,
+                                 .finding = {.id = "X12",
+                                             .clause = "ILAC-P14:09/2020",
+                                             .severity = certificate::FindingSeverity::major,
+                                             .where = {},
+                                             .what = std::move(what),
+                                             .action = std::move(action)},
+                                 .badness = badness});
+        };
         // What is no error may be a small quantity that the scope means; an error is within no scope of its own size.
         if (!there.capability && is_difference_by_role(place)) {
             constexpr double k_outside = 1e9;  // worse than any U
-            doubtful_.push_back(
-                {.table = &place.table,
-                 .column = &place.column,
-                 .row = place.row,
-                 .finding = {.id = "X12",
-                             .clause = "ILAC-P14:09/2020",
-                             .severity = certificate::FindingSeverity::major,
-                             .where = {},
-                             .what = "it is not said at which value \"" + place.column.result +
-                                     "\" was measured, and at " + named +
-                                     " the scope does not cover it: " + there.outside_because,
-                             .action = "State the role of its nominal value (\"role\": \"nominal\") in a column of "
-                                       "points that the table shows."},
-                 .badness = k_outside});
+            note("it is not said at which value \"" + place.column.result + "\" was measured, and at " + named +
+                     " the scope does not cover it: " + there.outside_because,
+                 "State the role of its nominal value (\"role\": \"nominal\") in a column of points that the table "
+                 "shows.",
+                 k_outside);
             return;
         }
         if (!there.capability || *there.capability <= k_same * *value.capability) {
@@ -322,24 +325,16 @@ private:
             return;
         }
         const std::string U = value.printed_U.empty() ? gum::round_significant(half_width, 2) : value.printed_U;
-        doubtful_.push_back(
-            {.table = &place.table,
-             .column = &place.column,
-             .row = place.row,
-             .finding = {.id = "X12",
-                         .clause = "ILAC-P14:09/2020",
-                         .severity = certificate::FindingSeverity::major,
-                         .where = {},
-                         .what = "it is not said whether \"" + place.column.result + "\" is an error of " + named +
-                                 ": the scope entry \"" + there.entry + "\" allows U from " +
-                                 with_unit(certificate::printed_capability(*there.capability), place.column.unit) +
-                                 " there, and U is stated as " + with_unit(U, place.column.unit),
-                         .action = "Where the result is an error, a deviation or a correction, state its role in the "
-                                   "outputs of the job, and that of its nominal value (\"role\": \"nominal\") in a "
-                                   "column of points that the table shows; where it is the quantity itself, state "
-                                   "\"role\": \"measured_value\". A job "
-                                   "without points needs one of them (\"points\")."},
-             .badness = *there.capability / *value.capability});
+        note(
+            "it is not said whether \"" + place.column.result + "\" is an error of " + named + ": the scope entry \"" +
+                there.entry + "\" allows U from " +
+                with_unit(certificate::printed_capability(*there.capability), place.column.unit) +
+                " there, and U is stated as " + with_unit(U, place.column.unit),
+            "Where the result is an error, a deviation or a correction, state its role in the outputs of the job, and "
+            "that of its nominal value (\"role\": \"nominal\") in a column of points that the table shows; where it is "
+            "the quantity itself, state \"role\": \"measured_value\". A job without points needs one of them "
+            "(\"points\").",
+            *there.capability / *value.capability);
     }
 
     void note_coverage(const CertifiedColumn& column, double p) {
