@@ -3,9 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "certificate/certified_results.h"
 #include "gum/quantity/unit.h"
 
 namespace gumcert::certificate {
+
+bool is_role_of_difference(std::string_view role) {
+    return role == "error" || role == "deviation" || role == "correction";
+}
 
 std::optional<text::AnglePart> last_part_of(const std::string& unit) {
     const gum::Unit parsed = gum::Unit::parse(unit);
@@ -43,13 +48,27 @@ std::string shown_unit(const PointColumn& column) {
     return unit_in_form(column.printed_unit, column.form, column.unit);
 }
 
-std::string form_of_result(const std::optional<TableLayout>& layout, const std::string& result) {
-    if (!layout) {
-        return {};
+const ShownColumn* column_of_values(const CertifiedTable& table, const std::string& result) {
+    if (!table.layout) {
+        return nullptr;
     }
-    const auto found = std::find_if(layout->shown.begin(), layout->shown.end(),
+    const std::vector<ShownColumn>& shown = table.layout->shown;
+    const auto found = std::find_if(shown.begin(), shown.end(),
                                     [&](const ShownColumn& c) { return c.show == "value" && c.of == result; });
-    return found == layout->shown.end() ? std::string() : found->form;
+    return found == shown.end() ? nullptr : &*found;
+}
+
+std::string form_of_result(const CertifiedTable& table, const std::string& result) {
+    const ShownColumn* const column = column_of_values(table, result);
+    return column == nullptr ? std::string() : column->form;
+}
+
+std::string value_as_shown(const CertifiedTable& table, const CertifiedColumn& column, const std::string& printed) {
+    return in_form(printed, form_of_result(table, column.result), column.unit);
+}
+
+std::string unit_of_values(const CertifiedTable& table, const CertifiedColumn& column) {
+    return unit_in_form(column.printed_unit, form_of_result(table, column.result), column.unit);
 }
 
 }  // namespace gumcert::certificate

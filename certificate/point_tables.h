@@ -87,6 +87,9 @@ struct TableLayout {
     std::string plot = {};  ///< as TableRequest::plot
 };
 
+/// Whether a role says that a result is an error, a deviation or a correction: small beside the quantity that it is one of.
+[[nodiscard]] bool is_role_of_difference(std::string_view role);
+
 // Angles that documents print as 12° 30′ 05.0″. Records, digital certificates and whatever computes have the decimal number in
 // the unit of the column; a number is rounded there, at the digit of U, and its parts are those of the rounded number.
 
@@ -107,7 +110,16 @@ inline constexpr std::string_view k_sexagesimal = "sexagesimal";
 [[nodiscard]] std::string shown_cell(const PointColumn& column, std::size_t row);
 [[nodiscard]] std::string shown_unit(const PointColumn& column);
 
+struct CertifiedTable;
+struct CertifiedColumn;
+/// The column in which a table shows the values of a result; none where it has no layout, or does not show them.
+[[nodiscard]] const ShownColumn* column_of_values(const CertifiedTable& table, const std::string& result);
 /// The form in which a table shows the values of a result; "" where it has no layout.
-[[nodiscard]] std::string form_of_result(const std::optional<TableLayout>& layout, const std::string& result);
+[[nodiscard]] std::string form_of_result(const CertifiedTable& table, const std::string& result);
+/// A value of a result, or a limit of it, as its table shows it: in_form() of what the table says.
+[[nodiscard]] std::string value_as_shown(const CertifiedTable& table, const CertifiedColumn& column,
+                                         const std::string& printed);
+/// Its unit: unit_in_form() of what the table says. U and u are numbers of the unit of the column.
+[[nodiscard]] std::string unit_of_values(const CertifiedTable& table, const CertifiedColumn& column);
 
 }  // namespace gumcert::certificate

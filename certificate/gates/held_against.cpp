@@ -93,8 +93,7 @@ const ShownColumn* error_column(const CertifiedTable& table, const std::string& 
     }
     const auto& shown = table.layout->shown;
     const auto found = std::find_if(shown.begin(), shown.end(), [&](const ShownColumn& one) {
-        return one.show == "value" && one.of == result &&
-               (one.role == "error" || one.role == "deviation" || one.role == "correction");
+        return one.show == "value" && one.of == result && is_role_of_difference(one.role);
     });
     return found == shown.end() ? nullptr : &*found;
 }

@@ -65,12 +65,8 @@ struct DecidedRow {
 
 /// The stage of a result, before or after an adjustment; "" where it has none.
 std::string stage_of(const CertifiedTable& table, const std::string& result) {
-    for (const ShownColumn& shown : table.layout->shown) {
-        if (shown.show == "value" && shown.of == result) {
-            return shown.stage;
-        }
-    }
-    return "";
+    const ShownColumn* const shown = column_of_values(table, result);
+    return shown == nullptr ? std::string() : shown->stage;
 }
 
 /// \param stage  of the words: what they say of the item before an adjustment is no verdict on it afterwards

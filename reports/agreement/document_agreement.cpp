@@ -198,7 +198,7 @@ std::vector<PrintedDocument::Row> PrintedDocument::rows_of(const CertifiedTable&
     };
     const auto is_interval = [](const CertifiedValue& v) { return v.interval && !v.printed_low.empty(); };
     const auto as_value = [&](const CertifiedColumn& of, const std::string& printed) {
-        return certificate::in_form(printed, certificate::form_of_result(table.layout, of.result), of.unit);
+        return certificate::value_as_shown(table, of, printed);
     };
     const CertifiedColumn* before = nullptr;
     for (const CertifiedColumn& column : table.columns) {
@@ -289,11 +289,7 @@ std::vector<PrintedDocument::Row> PrintedDocument::rows_of(const CertifiedTable&
                 const CertifiedValue& v = result->values[i];
                 outside.insert(v.scope_entry.empty());
                 if (shown.show == "value") {
-                    add_cell(as_value(*result, v.printed_value),
-                             certificate::unit_in_form(result->printed_unit,
-                                                       certificate::form_of_result(table.layout, result->result),
-                                                       result->unit),
-                             true);
+                    add_cell(as_value(*result, v.printed_value), certificate::unit_of_values(table, *result), true);
                 } else if (!is_interval(v)) {
                     add_cell(v.printed_U, result->printed_unit, true);
                 }

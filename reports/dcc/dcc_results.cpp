@@ -152,18 +152,6 @@ std::string conformity_word(const std::string& verdict) {
     return verdict == "conditional_fail" ? "conditionalFail" : "noPass";
 }
 
-/// How the layout of a table calls a result; none: it has no layout, or does not.
-const certificate::ShownColumn* shown_as(const CertifiedTable& table, const std::string& result) {
-    if (!table.layout) {
-        return nullptr;
-    }
-    const auto& shown = table.layout->shown;
-    const auto found = std::find_if(shown.begin(), shown.end(), [&](const certificate::ShownColumn& c) {
-        return c.show == "value" && c.of == result;
-    });
-    return found == shown.end() ? nullptr : &*found;
-}
-
 /// Words, one a row; blanks would split them.
 void words_quantity(DccWriter& w, const Text& name, const std::string& ref_type, std::vector<std::string> entries,
                     const std::string& stage = {}) {
@@ -301,7 +289,7 @@ void meta_data(DccWriter& w, const Column& c) {
 }
 
 void column_once(DccWriter& w, const Column& c) {
-    const certificate::ShownColumn* const as = shown_as(c.table, c.column.result);
+    const certificate::ShownColumn* const as = certificate::column_of_values(c.table, c.column.result);
     const std::string known =
         w.ref_types()(as != nullptr && !as->role.empty() ? "role_" + as->role : "value_" + c.table.id);
     const std::string ref_type = known.empty() ? w.ref_types()("value_results") : known;

@@ -147,8 +147,7 @@ PlotPanel panel_of(const CertifiedTable& table, const CertifiedColumn& column, c
     CertifiedLimit acceptance_upper;
     const AxisUnit across =
         abscissa != nullptr ? axis_unit(abscissa->form, abscissa->unit, abscissa->printed_unit) : AxisUnit();
-    const AxisUnit up =
-        axis_unit(certificate::form_of_result(table.layout, column.result), column.unit, column.printed_unit);
+    const AxisUnit up = axis_unit(certificate::form_of_result(table, column.result), column.unit, column.printed_unit);
     const auto divided = [](const std::optional<double>& number, double divisor) {
         return number ? std::optional(*number / divisor) : std::nullopt;
     };

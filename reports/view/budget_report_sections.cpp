@@ -89,12 +89,11 @@ void capability_of_values(CertificateBuilder& builder, const Wording& words, con
             for (std::size_t i = 0; i < column.values.size(); ++i) {
                 const certificate::CertifiedValue& value = column.values[i];
                 const bool at_points = table.argument && i < table.argument->printed.size();
-                rows.push_back(
-                    {name_of_result(table.id, column.result, words), at_points ? table.argument->printed[i] : "",
-                     certificate::in_form(value.printed_value, certificate::form_of_result(table.layout, column.result),
-                                          column.unit),
-                     value.printed_U + (value.raised ? " #" : ""), value.printed_capability, column.printed_unit,
-                     value.scope_entry, words.sentence(value.outside_because)});
+                rows.push_back({name_of_result(table.id, column.result, words),
+                                at_points ? table.argument->printed[i] : "",
+                                certificate::value_as_shown(table, column, value.printed_value),
+                                value.printed_U + (value.raised ? " #" : ""), value.printed_capability,
+                                column.printed_unit, value.scope_entry, words.sentence(value.outside_because)});
             }
         }
     }

@@ -60,7 +60,7 @@ std::vector<Decided> decided_by(const Certificate& certificate, const AgreedSpec
                                    .at = table.argument ? table.argument->printed.at(i) : std::string(),
                                    .table = table.id,
                                    .is_shown = shows_verdict(table, column.result),
-                                   .form = certificate::form_of_result(table.layout, column.result)});
+                                   .form = certificate::form_of_result(table, column.result)});
                 }
             }
         }

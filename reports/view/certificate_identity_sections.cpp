@@ -276,7 +276,7 @@ std::pair<const certificate::CertifiedColumn*, const certificate::CertifiedValue
 /// As the table of a result shows its values.
 std::string form_of(const Certificate& certificate, const std::string& result) {
     for (const certificate::CertifiedTable& table : certificate.tables) {
-        if (std::string form = certificate::form_of_result(table.layout, result); !form.empty()) {
+        if (std::string form = certificate::form_of_result(table, result); !form.empty()) {
             return form;
         }
     }

@@ -138,8 +138,10 @@ private:
     void add_of_result(const ShownColumn& c, const CertifiedColumn& of) {
         const std::string& unit = of.printed_unit;
         if (c.show == "value") {
-            put(c, heading_of_shown(table_, c, words_), unit_of_value(of), true, of,
-                [this, &of](const CertifiedValue& v) { return Text(as_value(of, v.printed_value)); });
+            put(c, heading_of_shown(table_, c, words_), certificate::unit_of_values(table_, of), true, of,
+                [this, &of](const CertifiedValue& v) {
+                    return Text(certificate::value_as_shown(table_, of, v.printed_value));
+                });
         } else if (c.show == "U") {
             put(c, words_("certificate", "U_short"), unit, true, of,
                 [](const CertifiedValue& v) { return Text(coverage_of(v) == Coverage::interval ? "" : v.printed_U); });
@@ -165,18 +167,10 @@ private:
 
     void add_limit(const ShownColumn& c, const CertifiedColumn& of, const char* head,
                    const std::function<std::string(const Verdict&)>& limit) {
-        put(c, words_("point_table", head), unit_of_value(of), true, of, [this, &of, limit](const CertifiedValue& v) {
-            return Text(v.verdict ? as_value(of, limit(*v.verdict)) : "");
-        });
-    }
-
-    // As values of a result are printed; U and u are numbers of its unit.
-    [[nodiscard]] std::string as_value(const CertifiedColumn& of, const std::string& printed) const {
-        return certificate::in_form(printed, certificate::form_of_result(table_.layout, of.result), of.unit);
-    }
-    [[nodiscard]] std::string unit_of_value(const CertifiedColumn& of) const {
-        return certificate::unit_in_form(of.printed_unit, certificate::form_of_result(table_.layout, of.result),
-                                         of.unit);
+        put(c, words_("point_table", head), certificate::unit_of_values(table_, of), true, of,
+            [this, &of, limit](const CertifiedValue& v) {
+                return Text(v.verdict ? certificate::value_as_shown(table_, of, limit(*v.verdict)) : "");
+            });
     }
 
     void add_limits(const ShownColumn& c, const CertifiedColumn& of) {
@@ -208,10 +202,13 @@ private:
         if (any(*of, is_interval)) {
             const auto column = [&](const char* head, std::string CertifiedValue::*text) {
                 const bool is_value = text != &CertifiedValue::printed_u;
-                put(c, words_("certificate", head), is_value ? unit_of_value(*of) : of->printed_unit, true, *of,
+                put(c, words_("certificate", head),
+                    is_value ? certificate::unit_of_values(table_, *of) : of->printed_unit, true, *of,
                     [=, this](const CertifiedValue& v) {
                         const std::string& printed = v.*text;
-                        return Text(!is_interval(v) ? "" : is_value ? as_value(*of, printed) : printed);
+                        return Text(!is_interval(v) ? ""
+                                    : is_value      ? certificate::value_as_shown(table_, *of, printed)
+                                                    : printed);
                     });
             };
             if (any(*of, [&](const auto& v) { return is_interval(v) && !v.printed_u.empty(); })) {

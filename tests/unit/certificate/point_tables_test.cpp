@@ -4,6 +4,8 @@
 
 #include <optional>
 
+#include "certificate/certified_results.h"
+
 namespace gumcert::certificate {
 namespace {
 
@@ -42,12 +44,40 @@ TEST(PointTables, LeavesWordsOfAColumnAlone) {
 }
 
 TEST(PointTables, OfAResultIsThatOfItsTable) {
-    EXPECT_EQ(form_of_result(std::nullopt, "phi"), "");
-    TableLayout layout;
-    layout.shown.push_back(
+    CertifiedTable table;
+    EXPECT_EQ(form_of_result(table, "phi"), "");
+    EXPECT_EQ(column_of_values(table, "phi"), nullptr);
+    table.layout = TableLayout();
+    table.layout->shown.push_back(
         {.show = "value", .of = "phi", .heading = {}, .role = "", .stage = "", .form = "sexagesimal"});
-    EXPECT_EQ(form_of_result(layout, "phi"), "sexagesimal");
-    EXPECT_EQ(form_of_result(layout, "E"), "");
+    EXPECT_EQ(form_of_result(table, "phi"), "sexagesimal");
+    EXPECT_EQ(form_of_result(table, "E"), "");
+    EXPECT_EQ(column_of_values(table, "phi"), table.layout->shown.data());
+    EXPECT_EQ(column_of_values(table, "E"), nullptr);
+}
+
+TEST(PointTables, ShowsValuesAsTheTableSays) {
+    CertifiedColumn phi;
+    phi.result = "phi";
+    phi.unit = "arcsec";
+    phi.printed_unit = "″";
+    CertifiedTable table;
+    EXPECT_EQ(value_as_shown(table, phi, "45005.0"), "45005.0");
+    EXPECT_EQ(unit_of_values(table, phi), "″");
+    table.layout = TableLayout();
+    table.layout->shown.push_back(
+        {.show = "value", .of = "phi", .heading = {}, .role = "", .stage = "", .form = "sexagesimal"});
+    EXPECT_EQ(value_as_shown(table, phi, "45005.0"), "12°\u00A030′\u00A005.0″");
+    EXPECT_EQ(unit_of_values(table, phi), "");
+}
+
+TEST(PointTables, KnowsRolesOfDifferences) {
+    for (const char* role : {"error", "deviation", "correction"}) {
+        EXPECT_TRUE(is_role_of_difference(role)) << role;
+    }
+    for (const char* role : {"", "measured_value", "indication", "nominal"}) {
+        EXPECT_FALSE(is_role_of_difference(role)) << role;
+    }
 }
 
 }  // namespace

@@ -308,10 +308,9 @@ void show_value(const CertifiedTable& table, const CertifiedColumn& column, cons
         at.emplace(stated.at, stated.text);
     }
     // Values in degrees, minutes and seconds have no unit behind them.
-    const std::string form = certificate::form_of_result(table.layout, column.result);
     const auto as_value = [&](const std::string& printed) {
-        return with_unit(certificate::in_form(printed, form, column.unit),
-                         certificate::unit_in_form(column.printed_unit, form, column.unit));
+        return with_unit(certificate::value_as_shown(table, column, printed),
+                         certificate::unit_of_values(table, column));
     };
     const auto show = [&](const PrintedMember& member) {
         const auto found = at.find(member.at);

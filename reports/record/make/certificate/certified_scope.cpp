@@ -169,23 +169,14 @@ Outside out_of_ranges(const certificate::CertificateData& data, const ScopeEntry
 
 /// The role of a result in its table; "" where the job states none.
 std::string role_of(const ScopePlace& place) {
-    if (!place.table.layout) {
-        return {};
-    }
-    const auto found = std::ranges::find_if(place.table.layout->shown, [&](const auto& shown) {
-        return shown.show == "value" && shown.of == place.column.result;
-    });
-    return found == place.table.layout->shown.end() ? std::string() : found->role;
-}
-
-bool is_of_difference(const std::string& role) {
-    return role == "error" || role == "deviation" || role == "correction";
+    const certificate::ShownColumn* const shown = certificate::column_of_values(place.table, place.column.result);
+    return shown == nullptr ? std::string() : shown->role;
 }
 
 /// Whether the job says by its role that a result is the quantity itself.
 bool is_quantity_by_role(const ScopePlace& place) {
     const std::string role = role_of(place);
-    return !role.empty() && !is_of_difference(role);
+    return !role.empty() && !certificate::is_role_of_difference(role);
 }
 
 /// An input beside which a result is small.
@@ -513,7 +504,7 @@ ScopeAnswer scope_of(const certificate::CertificateData& data, const ScopePlace&
 }
 
 bool is_difference_by_role(const ScopePlace& place) {
-    return is_of_difference(role_of(place));
+    return certificate::is_role_of_difference(role_of(place));
 }
 
 std::optional<certificate::HeldAgainst> doubtful_place(const ScopePlace& place,
