@@ -116,6 +116,16 @@ private:
         return bytes;
     }
 
+    /// How many characters from here on are of ASCII and stand for themselves in a string.
+    [[nodiscard]] std::size_t plain_characters() const {
+        const std::string_view from_here = text_.substr(offset_);
+        const auto end = std::find_if(from_here.begin(), from_here.end(), [](char c) {
+            const auto byte = static_cast<unsigned char>(c);
+            return byte < 0x20U || byte >= 0x80U || c == '"' || c == '\\';
+        });
+        return static_cast<std::size_t>(end - from_here.begin());
+    }
+
     void value(Value& out, std::size_t depth) {
         if (++values_ > options_.values) {
             stop_here(Fault::too_many_values, "more than " + std::to_string(options_.values) + " values",
@@ -315,7 +325,9 @@ private:
             if (c != '\\') {
                 const std::size_t begin = offset_;
                 do {
-                    offset_ += character();
+                    // Nearly all characters are of one byte and need no second look.
+                    const std::size_t plain = plain_characters();
+                    offset_ += plain != 0 ? plain : character();
                 } while (!at_end() && here() != '"' && here() != '\\' && static_cast<unsigned char>(here()) >= 0x20U);
                 out += text_.substr(begin, offset_ - begin);
                 continue;
