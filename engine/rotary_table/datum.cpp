@@ -203,8 +203,7 @@ DatumSolution transform_to_datum(const RotaryTableMeasurement& measurement, cons
 
     // Where the result will be, as far as rotations go: the axis along its coordinate.
     const Eigen::Matrix3d upright =
-        Eigen::Quaterniond::FromTwoVectors(direction_of_turning(measurement, poses), Eigen::Vector3d::Unit(axial))
-            .toRotationMatrix();
+        smallest_rotation(direction_of_turning(measurement, poses), Eigen::Vector3d::Unit(axial));
     const RigidMotion swing{upright, Eigen::Vector3d::Zero()};
     const bool inclined = inclination(measurement.axis, swing * set_up) > k_small_inclination ||
                           inclination(measurement.axis, set_up) > k_small_inclination;

@@ -1,5 +1,7 @@
 #include "engine/rotary_table/rotation.h"
 
+#include <Eigen/Geometry>
+
 #include <cmath>
 
 namespace gumcert::engine {
@@ -52,6 +54,24 @@ Eigen::Vector3d angles_zyx(const Eigen::Matrix3d& rotation) {
     return {std::atan2(rotation(2, 1), rotation(2, 2)),
             std::atan2(-rotation(2, 0), std::hypot(rotation(2, 1), rotation(2, 2))),
             std::atan2(rotation(1, 0), rotation(0, 0))};
+}
+
+Eigen::Matrix3d smallest_rotation(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+    const Eigen::Vector3d a = from.normalized();
+    const Eigen::Vector3d b = to.normalized();
+    const double cosine = b.dot(a);
+    // Eigen's own FromTwoVectors() finds the axis of opposite directions by a singular value decomposition, which takes
+    // the compiler ten seconds.
+    constexpr double k_opposite = 1e-12;
+    if (cosine < k_opposite - 1.0) {
+        const Eigen::Vector3d across = a.unitOrthogonal();
+        return 2.0 * across * across.transpose() - Eigen::Matrix3d::Identity();
+    }
+    const double w = std::sqrt(2.0 * (1.0 + cosine));  // twice the cosine of half the angle
+    Eigen::Quaterniond turn;
+    turn.vec() = a.cross(b) * (1.0 / w);
+    turn.w() = 0.5 * w;
+    return turn.toRotationMatrix();
 }
 
 RigidMotion rigid_motion(const Eigen::Matrix<double, 6, 1>& parameters) {

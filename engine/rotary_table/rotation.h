@@ -18,6 +18,10 @@ namespace gumcert::engine {
 /// The angles a, b, c that give `rotation` in `rotation_zyx`; |b| < π/2.
 [[nodiscard]] Eigen::Vector3d angles_zyx(const Eigen::Matrix3d& rotation);
 
+/// The rotation by the smallest angle that turns one direction into another; of opposite ones half a turn about some axis across.
+/// \param from,to  not zero; their lengths do not matter
+[[nodiscard]] Eigen::Matrix3d smallest_rotation(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
+
 /// A rigid motion x ↦ rotation·x + translation; reads as `target_from_source`.
 struct RigidMotion {
     Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();

@@ -53,6 +53,22 @@ TEST(Rotation, DerivativesAreCentralDifferences) {
     }
 }
 
+TEST(Rotation, TurnsOneDirectionIntoAnotherByTheSmallestAngle) {
+    const std::vector<Eigen::Vector3d> directions{{1.0, 0.0, 0.0},  {-1.0, 0.0, 0.0},  {0.0, 0.0, 2.0},
+                                                  {0.0, 0.0, -1.0}, {1e-5, 0.0, -1.0}, {0.3, -0.4, 1.2},
+                                                  {-0.3, 0.4, -1.2}};
+    for (const Eigen::Vector3d& from : directions) {
+        for (const Eigen::Vector3d& to : directions) {
+            const Eigen::Matrix3d turn = smallest_rotation(from, to);
+            EXPECT_LT((turn * from.normalized() - to.normalized()).norm(), 1e-10);
+            EXPECT_LT((turn.transpose() * turn - Eigen::Matrix3d::Identity()).norm(), 1e-10);
+            EXPECT_NEAR(turn.determinant(), 1.0, 1e-10) << "no mirror";
+            // The trace of a rotation by φ is 1 + 2 cos φ.
+            EXPECT_NEAR(0.5 * (turn.trace() - 1.0), from.normalized().dot(to.normalized()), 1e-10);
+        }
+    }
+}
+
 TEST(Rotation, AnglesComeBack) {
     for (const Eigen::Vector3d& angles : rotation_angles()) {
         EXPECT_LT((angles_zyx(rotation_zyx(angles)) - angles).norm(), 1e-14 * (1.0 + angles.norm()));
