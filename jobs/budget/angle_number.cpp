@@ -34,6 +34,14 @@ bool has_parts_without_signs(std::string_view text) {
 std::optional<WrittenNumber> angle_in(const std::string& written, const std::string& unit, const std::string& where,
                                       ProblemList& problems, const std::string& group) {
     const std::string shown = written.size() <= 64 ? text::in_quotes(written) : "a long text";
+    if (unit.empty()) {
+        problems.refuse(k_angle_in_parts, where, shown + " in a column of limits whose unit is not stated",
+                        "such limits are numbers in the unit of the specification",
+                        "declare the column with the points: \"limit_low\": {\"unit\": \"arcsec\", \"form\": "
+                        "\"sexagesimal\"}",
+                        group);
+        return std::nullopt;
+    }
     const auto last = certificate::last_part_of(unit);
     if (!last) {
         problems.refuse(k_angle_in_parts, where, shown + " where the unit is " + unit,

@@ -24,6 +24,7 @@ struct WrittenNumber {
 [[nodiscard]] bool is_angle_text(const nlohmann::json& value);
 
 /// An angle in degrees, minutes and seconds, in a unit that has these parts.
+/// \param unit  "" of limits in the unit of a specification, which are no angles
 /// \return nothing when it was refused
 [[nodiscard]] std::optional<WrittenNumber> angle_number(const std::string& written, const std::string& unit,
                                                         const std::string& where, ProblemList& problems);

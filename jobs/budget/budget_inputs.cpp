@@ -733,7 +733,11 @@ void BudgetInputs::read_information(const FileColumn& column, const CsvTable& ta
         return;
     }
     if (!has_words_[*column.information]) {
-        if (const auto number = number_in_cell(table, row, position, into.unit, column.name, problems)) {
+        const bool is_limit_without_unit = into.unit.empty() && text::has_angle_sign(cell.text);
+        const auto number = is_limit_without_unit
+                                ? angle_number(std::string(cell.text), {}, table.where(cell), problems)
+                                : number_in_cell(table, row, position, into.unit, column.name, problems);
+        if (number) {
             into.values.back() = number->value;
             into.printed.back() = digits_as_written(number->written, number->value);
         }

@@ -131,6 +131,18 @@ TEST(AngleNumber, StandsBesideNoBareNumber) {
         << "words are no angles";
 }
 
+TEST(AngleNumber, IsNoLimitInTheUnitOfASpecification) {
+    const std::string job = R"j("inputs": {"X": {"unit": "arcsec", "u": 1}},
+        "certificate": {"specifications": [{"id": "s", "results": ["X"], "unit": "arcsec", "rule": {"id": "DR-01"},
+            "limits": {"by": "points"}}]}, "points": )j";
+    EXPECT_THAT(refusal(job + R"j({"file": "points.csv"})j", {{"points.csv", "X,limit_high\n1°,1° 00' 05''\n"}}),
+                HasSubstr("points.csv:2:4 — \"1° 00' 05''\" in a column of limits whose unit is not stated"));
+    EXPECT_THAT(refusal(job + R"j([{"X": "1°", "limit_high": "1° 00' 05\""}])j"), HasSubstr("declare the column"));
+    EXPECT_EQ(refusal(job + R"j({"list": [{"X": "1°", "limit_high": "1° 00' 05\""}],
+                                 "columns": {"limit_high": {"unit": "arcsec"}}})j"),
+              "");
+}
+
 TEST(AngleNumber, IsToldAsANumberWhereOnlyNumbersStand) {
     EXPECT_THAT(refusal(R"j("inputs": {"X": {"unit": "arcsec", "value": "12°", "u": "0° 00' 02.50\""}})j"),
                 HasSubstr("it is 2.5 in arcsec"));
