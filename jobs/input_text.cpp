@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "jobs/file_source.h"
+#include "text/angle_text.h"
 #include "text/edit_distance.h"
 #include "text/numbers.h"
 #include "text/place.h"
@@ -94,6 +95,18 @@ std::optional<std::string> name_objection(std::string_view name, std::size_t lon
         return "ends with a space";
     }
     return std::nullopt;
+}
+
+std::string advice_for_number(std::string_view text) {
+    if (text.find(':') != std::string_view::npos) {
+        return "write the number of the unit, or an angle in arcsec or arcmin as 12\u00B0 30\u2032 05.0\u2033";
+    }
+    if (!text::has_angle_sign(text)) {
+        return "write the number without quotes";
+    }
+    const auto seconds = text::decimal_of_angle(text, text::AnglePart::seconds);
+    return "write the number of the unit, without signs of degrees, minutes or seconds" +
+           (seconds ? ": it is " + text::without_trailing_zeros(*seconds) + " in arcsec" : "");
 }
 
 std::optional<std::string_view> nearest_word(std::string_view word, std::span<const std::string_view> known) {

@@ -26,6 +26,9 @@ namespace gumcert::jobs {
 [[nodiscard]] std::optional<std::string_view> nearest_word(std::string_view word,
                                                            std::span<const std::string_view> known);
 
+/// What to write where a text stands in place of a number: of an angle in degrees, minutes and seconds its number of seconds.
+[[nodiscard]] std::string advice_for_number(std::string_view text);
+
 /// The numbers that a key or a column allows.
 struct NumberRange {
     double low = -std::numeric_limits<double>::max();

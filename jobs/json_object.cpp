@@ -191,7 +191,7 @@ void JsonObject::refuse(const InputCode& code, std::string_view key, std::string
 void JsonObject::refuse_type(const std::string& pointer, const nlohmann::json& value, std::string_view expected) const {
     problems_->refuse(k_wrong_type, document_->where(pointer), described(value), "must be " + std::string{expected},
                       value.is_string() && expected.find("number") != std::string_view::npos
-                          ? "write the number without quotes"
+                          ? advice_for_number(value.get_ref<const std::string&>())
                           : "correct the value");
 }
 

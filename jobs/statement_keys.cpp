@@ -172,7 +172,7 @@ void StatementKeys::refuse_type(const Entry& entry, std::string_view expected) c
     entry.origin->problems->refuse(k_wrong_type, where_of(entry), described(*entry.value),
                                    "must be " + std::string{expected},
                                    entry.value->is_string() && expected.find("number") != std::string_view::npos
-                                       ? "write the number without quotes"
+                                       ? advice_for_number(entry.value->get_ref<const std::string&>())
                                        : "correct the value",
                                    group_of(*entry.origin, entry.key));
 }
@@ -260,7 +260,8 @@ std::optional<std::vector<double>> StatementKeys::numbers(std::string_view key) 
             const auto index = static_cast<std::size_t>(&element - &elements->front());
             entry.origin->problems->refuse(
                 k_wrong_type, entry.origin->document->where(child_pointer(pointer(key), index)), described(element),
-                "must be a number", element.is_string() ? "write the number without quotes" : "correct the value");
+                "must be a number",
+                element.is_string() ? advice_for_number(element.get_ref<const std::string&>()) : "correct the value");
         }
     }
     return numbers.size() == elements->size() ? std::optional{std::move(numbers)} : std::nullopt;

@@ -113,4 +113,17 @@ Text heading_of_shown(const CertifiedTable& table, const ShownColumn& shown, con
     return by_description ? described : plain + " " + shown.of;
 }
 
+Text point_in_words(const std::string& name, const Wording& words) {
+    constexpr std::string_view k_before_unit = "\u00A0";
+    Text text;
+    for (std::size_t begin = 0; begin < name.size();) {
+        const std::size_t end = std::min(name.find(", ", begin), name.size());
+        const std::string part = name.substr(begin, end - begin);
+        text += begin == 0 ? "" : ", ";
+        text += part.find(k_before_unit) == std::string::npos ? Text(part) : words.number(part);
+        begin = end + 2;
+    }
+    return text;
+}
+
 }  // namespace gumcert::reports

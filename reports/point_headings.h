@@ -20,4 +20,7 @@ namespace gumcert::reports {
 [[nodiscard]] Text heading_of_shown(const certificate::CertifiedTable& table, const certificate::ShownColumn& shown,
                                     const Wording& words);
 
+/// What a point is called by (certificate/point_names.h), with the decimal sign of the language in numbers that have a unit.
+[[nodiscard]] Text point_in_words(const std::string& name, const Wording& words);
+
 }  // namespace gumcert::reports

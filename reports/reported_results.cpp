@@ -1,11 +1,14 @@
 #include "reports/reported_results.h"
 
+#include "certificate/point_names.h"
+#include "reports/point_headings.h"
 #include "reports/record/stated_values.h"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <map>
+#include <set>
 #include <string>
 
 namespace gumcert::reports {
@@ -19,6 +22,7 @@ constexpr std::size_t k_most_names = 12;
 struct ReportedQuantity {
     Text name;
     const ReportedResult* reported;
+    std::string quantity = {};  ///< of a result at one of several points
 };
 
 /// "a, b and 3 more"
@@ -37,10 +41,19 @@ std::vector<Text> sentences_of(const std::vector<ReportedQuantity>& quantities, 
                                const Wording& words) {
     std::vector<Text> sentences;
     const auto add = [&](const char* sentence, const char* reason, const std::string ReportedResult::*of) {
-        std::vector<Text> names;
+        const auto holds = [&](const ReportedQuantity& q) { return q.reported->*of == reason; };
+        std::set<std::string> not_everywhere;
         for (const ReportedQuantity& q : quantities) {
-            if (q.reported->*of == reason) {
-                names.push_back(q.name);
+            if (!holds(q)) {
+                not_everywhere.insert(q.quantity);
+            }
+        }
+        std::vector<Text> names;
+        std::set<std::string> named;
+        for (const ReportedQuantity& q : quantities) {
+            const bool at_all_points = !q.quantity.empty() && !not_everywhere.contains(q.quantity);
+            if (holds(q) && (!at_all_points || named.insert(q.quantity).second)) {
+                names.push_back(at_all_points ? Text(q.quantity) : q.name);
             }
         }
         if (!names.empty()) {
@@ -80,10 +93,17 @@ std::vector<ReportedQuantity> quantities_of(const RotaryTable& rotary, const Wor
     return all;
 }
 
-std::vector<ReportedQuantity> quantities_of(const std::vector<Result>& results) {
+/// \param certificate  whose tables may show what a point is in place of its name; may be null
+std::vector<ReportedQuantity> quantities_of(const std::vector<Result>& results,
+                                            const certificate::Certificate* certificate, const Wording& words) {
+    const auto points = certificate != nullptr ? certificate::identities_of_rows(certificate->tables)
+                                               : std::map<std::string, certificate::PointIdentity>();
     std::vector<ReportedQuantity> all;
     for (const Result& result : results) {
-        all.push_back({result.name, &result.reported});
+        const auto point = points.find(result.point);
+        const bool is_named = !result.quantity.empty() && point != points.end();
+        all.push_back({is_named ? result.quantity + "[" + point_in_words(point->second.name, words) + "]" : result.name,
+                       &result.reported, result.point.empty() ? std::string() : result.quantity});
     }
     return all;
 }
@@ -97,11 +117,12 @@ Text interval_or(const std::string& U, const ReportedResult& reported, const Wor
 }  // namespace
 
 std::vector<Text> reasons_for_monte_carlo(const std::vector<Result>& results, const Wording& words) {
-    return sentences_of(quantities_of(results), true, words);
+    return sentences_of(quantities_of(results, nullptr, words), true, words);
 }
 
 std::vector<Text> reasons_for_monte_carlo(const EvaluationRecord& record, const Wording& words) {
-    std::vector<ReportedQuantity> all = quantities_of(record.results);
+    std::vector<ReportedQuantity> all =
+        quantities_of(record.results, record.certificate ? &*record.certificate : nullptr, words);
     if (record.rotary) {
         const std::vector<ReportedQuantity> of_table = quantities_of(*record.rotary, words);
         all.insert(all.end(), of_table.begin(), of_table.end());

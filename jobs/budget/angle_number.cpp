@@ -1,5 +1,6 @@
 #include "jobs/budget/angle_number.h"
 
+#include <algorithm>
 #include <charconv>
 #include <nlohmann/json.hpp>
 
@@ -23,9 +24,24 @@ std::optional<WrittenNumber> read_angle(const std::string& written, text::AngleP
     return number;
 }
 
+/// Parts of an angle without their signs: 12:30:05, 12 30 05.
+bool has_parts_without_signs(std::string_view text) {
+    return text.find_first_of(": ") != std::string_view::npos &&
+           text.find_first_not_of("0123456789.,+-: ") == std::string_view::npos && text.front() != ' ' &&
+           text.back() != ' ';
+}
+
 std::optional<WrittenNumber> angle_in(const std::string& written, const std::string& unit, const std::string& where,
                                       ProblemList& problems, const std::string& group) {
     const std::string shown = written.size() <= 64 ? text::in_quotes(written) : "a long text";
+    if (unit.empty()) {
+        problems.refuse(k_angle_in_parts, where, shown + " in a column of limits whose unit is not stated",
+                        "such limits are numbers in the unit of the specification",
+                        "declare the column with the points: \"limit_low\": {\"unit\": \"arcsec\", \"form\": "
+                        "\"sexagesimal\"}",
+                        group);
+        return std::nullopt;
+    }
     const auto last = certificate::last_part_of(unit);
     if (!last) {
         problems.refuse(k_angle_in_parts, where, shown + " where the unit is " + unit,
@@ -59,7 +75,8 @@ std::optional<WrittenNumber> angle_number(const std::string& written, const std:
 std::optional<WrittenNumber> number_in_cell(const CsvTable& table, std::size_t row, std::size_t column,
                                             const std::string& unit, const std::string& name, ProblemList& problems) {
     const CsvCell& cell = table.cell(row, column);
-    if (!unit.empty() && text::has_angle_sign(cell.text)) {
+    if (!unit.empty() &&
+        (text::has_angle_sign(cell.text) || (has_parts_without_signs(cell.text) && certificate::last_part_of(unit)))) {
         return angle_in(std::string(cell.text), unit, table.where(cell), problems, "column " + name);
     }
     const std::optional<double> value = table.number(row, column, {});
@@ -76,24 +93,83 @@ std::optional<int> decimals_of_angle(const nlohmann::json* value, const std::str
     return number ? std::optional(text::most_decimals({&number->written, 1})) : std::nullopt;
 }
 
-void refuse_bare_numbers(const CsvTable& table, std::size_t column, const std::string& name, ProblemList& problems) {
-    const CsvCell* bare = nullptr;
-    bool has_signs = false;
+std::optional<WrittenNumbers> numbers_in_list(const StatementKeys& keys, std::string_view key,
+                                              const std::string& unit) {
+    const nlohmann::json* const list = keys.value(key);
+    if (list == nullptr || !list->is_array() || std::none_of(list->begin(), list->end(), is_angle_text)) {
+        auto numbers = keys.numbers(key);
+        return numbers ? std::optional(WrittenNumbers{std::move(*numbers), keys.decimals_as_written(key)})
+                       : std::nullopt;
+    }
+    WrittenNumbers numbers;
+    AngleNotation notation;
+    const JsonDocument& document = keys.document(key);
+    for (std::size_t i = 0; i < list->size(); ++i) {
+        const nlohmann::json& element = (*list)[i];
+        const std::string pointer = child_pointer(keys.pointer(key), i);
+        notation.see(element, document, pointer);
+        if (is_angle_text(element)) {
+            if (const auto angle = angle_number(element.get_ref<const std::string&>(), unit, document.where(pointer),
+                                                keys.problems(key))) {
+                numbers.values.push_back(angle->value);
+                numbers.decimals = std::max(numbers.decimals, text::most_decimals({&angle->written, 1}));
+            }
+        } else if (element.is_number()) {
+            numbers.values.push_back(element.get<double>());
+            numbers.decimals = std::max(numbers.decimals, document.decimals_as_written(pointer));
+        } else {
+            keys.problems(key).refuse(k_wrong_type, document.where(pointer), described(element), "must be a number",
+                                      "correct the value");
+        }
+    }
+    const std::size_t refused = keys.problems(key).refusals();
+    notation.refuse_mixture(text::in_quotes(key), keys.problems(key));
+    return numbers.values.size() == list->size() && keys.problems(key).refusals() == refused
+               ? std::optional(std::move(numbers))
+               : std::nullopt;
+}
+
+int decimals_of_angles(const nlohmann::json& list, const std::string& unit) {
+    int most = 0;
+    for (const nlohmann::json& element : list) {
+        most = std::max(most, decimals_of_angle(&element, unit).value_or(0));
+    }
+    return most;
+}
+
+void AngleNotation::see(const CsvTable& table, std::size_t column) {
     for (std::size_t row = 0; row < table.rows(); ++row) {
         const CsvCell& cell = table.cell(row, column);
         if (text::has_angle_sign(cell.text)) {
-            has_signs = true;
-        } else if (bare == nullptr && cell.text.find_first_of("123456789") != std::string_view::npos &&
+            has_signs_ = true;
+        } else if (where_.empty() && cell.text.find_first_of("123456789") != std::string_view::npos &&
                    cell.text.find_first_not_of("0123456789.,+-eE") == std::string_view::npos) {
-            bare = &cell;
+            bare_ = cell.text;
+            where_ = table.where(cell);
         }
     }
-    if (has_signs && bare != nullptr) {
-        problems.refuse(k_angle_in_parts, table.where(*bare),
-                        text::in_quotes(bare->text) + " in column " + text::visible(name) +
-                            ", which has angles with signs of degrees, minutes or seconds",
-                        "a number without sign would be one of the unit of the column, and not of degrees",
-                        "write every angle of the column with its signs, such as 30\u00B0");
+}
+
+void AngleNotation::see(const nlohmann::json& value, const JsonDocument& document, const std::string& pointer) {
+    if (value.is_array()) {
+        for (std::size_t i = 0; i < value.size(); ++i) {
+            see(value[i], document, child_pointer(pointer, i));
+        }
+    } else if (is_angle_text(value)) {
+        has_signs_ = true;
+    } else if (value.is_number() && value.get<double>() != 0.0 && where_.empty()) {
+        bare_ = document.number_as_written(pointer);
+        where_ = document.where(pointer);
+    }
+}
+
+void AngleNotation::refuse_mixture(const std::string& of, ProblemList& problems) const {
+    if (has_signs_ && !where_.empty()) {
+        problems.refuse(
+            k_angle_in_parts, where_,
+            text::in_quotes(bare_) + " in " + of + ", which has angles with signs of degrees, minutes or seconds",
+            "a number without sign would be one of the unit, and not of degrees",
+            "write every angle of it with its signs, such as 30\u00B0");
     }
 }
 

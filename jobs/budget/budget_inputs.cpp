@@ -733,7 +733,11 @@ void BudgetInputs::read_information(const FileColumn& column, const CsvTable& ta
         return;
     }
     if (!has_words_[*column.information]) {
-        if (const auto number = number_in_cell(table, row, position, into.unit, column.name, problems)) {
+        const bool is_limit_without_unit = into.unit.empty() && text::has_angle_sign(cell.text);
+        const auto number = is_limit_without_unit
+                                ? angle_number(std::string(cell.text), {}, table.where(cell), problems)
+                                : number_in_cell(table, row, position, into.unit, column.name, problems);
+        if (number) {
             into.values.back() = number->value;
             into.printed.back() = digits_as_written(number->written, number->value);
         }
@@ -958,6 +962,7 @@ void BudgetInputs::read_point_array(const json& points, const std::string& point
                               return point.contains(stated_[i].name);
                           });
     }
+    std::map<std::string, AngleNotation> notations;  // by the key
     for (std::size_t i = 0; i < points.size(); ++i) {
         const std::string here = child_pointer(pointer, i);
         if (!points[i].is_object()) {
@@ -988,6 +993,13 @@ void BudgetInputs::read_point_array(const json& points, const std::string& point
                 }
                 continue;
             }
+            AngleNotation& notation = notations[key];
+            notation.see(value, document_, at);
+            for (const char* const of_values : {"value", "observations"}) {
+                if (value.is_object() && value.contains(of_values)) {
+                    notation.see(value[of_values], document_, child_pointer(at, of_values));
+                }
+            }
             if (const auto own = information(key, job)) {
                 read_information(*own, value, at, job);
                 continue;
@@ -1013,9 +1025,10 @@ void BudgetInputs::read_point_array(const json& points, const std::string& point
             } else if (value.is_object()) {
                 const JsonObject object(document_, at, keys_of<OverrideStatement>(), problems_);
                 if (const json* readings = object.find("observations"); readings != nullptr && readings->is_array()) {
-                    note_decimals(
-                        *index, job.points.size(),
-                        document_.decimals_as_written(object.pointer("observations")) + (readings->size() > 1 ? 1 : 0));
+                    note_decimals(*index, job.points.size(),
+                                  std::max(document_.decimals_as_written(object.pointer("observations")),
+                                           decimals_of_angles(*readings, stated_[*index].unit.text())) +
+                                      (readings->size() > 1 ? 1 : 0));
                 } else if (const json* stated = object.find("value"); stated != nullptr && stated->is_number()) {
                     note_decimals(*index, job.points.size(), document_.decimals_as_written(object.pointer("value")));
                 } else if (const auto angle = decimals_of_angle(stated, stated_[*index].unit.text())) {
@@ -1036,6 +1049,9 @@ void BudgetInputs::read_point_array(const json& points, const std::string& point
         read_point(point, overrides, told, job);
         job.points.push_back(std::move(point));
         fill_columns(job.points.size(), job);
+    }
+    for (const auto& [key, notation] : notations) {
+        notation.refuse_mixture(text::in_quotes(key) + " of the points", problems_);
     }
 }
 
@@ -1147,12 +1163,18 @@ void BudgetInputs::read_point_file(const std::string& name, BudgetJob& job) {
         return;
     }
     laboratory_.fill_rows(document_, *table, wanted, *file->problems);
+    std::map<std::size_t, AngleNotation> notations;  // of inputs, whose readings have a column each
     for (std::size_t c = 0; c < columns.size(); ++c) {
-        const bool has_angles =
-            columns[c].input ? columns[c].key == "value" || columns[c].is_reading : columns[c].information.has_value();
-        if (has_angles) {
-            refuse_bare_numbers(*table, c, columns[c].name, *file->problems);
+        if (columns[c].input && (columns[c].key == "value" || columns[c].is_reading)) {
+            notations[*columns[c].input].see(*table, c);
+        } else if (columns[c].information && !has_words_[*columns[c].information]) {
+            AngleNotation of_column;
+            of_column.see(*table, c);
+            of_column.refuse_mixture("column " + text::visible(columns[c].name), *file->problems);
         }
+    }
+    for (const auto& [input, notation] : notations) {
+        notation.refuse_mixture("column " + text::visible(stated_[input].name), *file->problems);
     }
     for (std::size_t row = 0; row < table->rows(); ++row) {
         gum::BudgetPoint point;

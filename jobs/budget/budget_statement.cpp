@@ -550,17 +550,17 @@ bool StatementReader::read_half_width(std::string_view key, double factor) {
 }
 
 bool StatementReader::read_limits() {
-    const auto limits = keys_.numbers("limits");
+    const auto limits = numbers_in_list(keys_, "limits", unit_.text());
     if (!limits) {
         return false;
     }
-    if (limits->size() != 2) {
-        keys_.refuse(k_wrong_size, "limits", "an array of " + std::to_string(limits->size()) + " elements",
+    if (limits->values.size() != 2) {
+        keys_.refuse(k_wrong_size, "limits", "an array of " + std::to_string(limits->values.size()) + " elements",
                      "must have 2 numbers", "state the lower and the upper limit");
         return false;
     }
-    const double a = (*limits)[0];
-    const double b = (*limits)[1];
+    const double a = limits->values[0];
+    const double b = limits->values[1];
     if (!(a < b)) {
         refuse_interval("limits", a, b);
         return false;

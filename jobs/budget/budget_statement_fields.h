@@ -186,10 +186,12 @@ void describe_statement(Archive& a) {
               "A word beside half_width, limits, resolution, u or U; an object as a statement of its own.");
     a.by_code("beta", In{between(0.0, 1.0, "")}, "Trapezoid: width of the top over width of the base.");
     a.by_code("d", k_above_zero, "Curvilinear trapezoid: half-range of the inexact limits.");
-    a.by_code("limits", Several{k_number, 2, 2}, "The lower one, then the upper one.");
+    a.by_code("limits", Several{Either{k_number, Line{k_longest_angle}}, 2, 2},
+              "The lower one, then the upper one; angles as for value.");
     a.by_code("resolution", k_above_zero, "Full step of the indication.");
     a.by_code("mpe", k_above_zero, "Maximum permissible error of a conforming instrument.");
-    a.by_code("observations", Several{k_number, 1}, "At least 2, or 1 with pooled.");
+    a.by_code("observations", Several{Either{k_number, Line{k_longest_angle}}, 1},
+              "At least 2, or 1 with pooled; angles as for value.");
     a.part("pooled", pooled, "A standard deviation from earlier observations.");
     a.part_or("groups", Several{Several{k_number, 2}, 2}, groups, "Readings by group, or a summary of them.");
     a.part_or("samples", Either{Several{k_number, k_least_samples}, FileName{}}, samples, "Values, or a CSV file.");

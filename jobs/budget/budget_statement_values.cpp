@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "gum/type_a.h"
+#include "jobs/budget/angle_number.h"
 #include "jobs/budget/budget_statement_reader.h"
 #include "jobs/csv_table.h"
 #include "text/counts.h"
@@ -43,7 +44,8 @@ std::optional<gum::ObservationSummary> StatementReader::summary_of(std::string_v
 }
 
 bool StatementReader::read_observations() {
-    const auto observations = keys_.numbers("observations");
+    const auto written = numbers_in_list(keys_, "observations", unit_.text());
+    const std::vector<double>* const observations = written ? &written->values : nullptr;
     std::optional<double> pooled_s;
     std::optional<double> nu;
     if (keys_.has("pooled")) {
@@ -58,9 +60,9 @@ bool StatementReader::read_observations() {
             return false;
         }
     }
-    if (!observations || !count_fits("observations", observations->size(), pooled_s ? 1 : 2,
-                                     pooled_s ? "with a pooled standard deviation, one observation will do"
-                                              : "a standard deviation needs at least 2 observations")) {
+    if (observations == nullptr || !count_fits("observations", observations->size(), pooled_s ? 1 : 2,
+                                               pooled_s ? "with a pooled standard deviation, one observation will do"
+                                                        : "a standard deviation needs at least 2 observations")) {
         return false;
     }
     const auto summary = summary_of("observations", *observations);
@@ -71,7 +73,7 @@ bool StatementReader::read_observations() {
     for (const double observation : *observations) {
         quantity_.observations.push_back(to_si(observation));
     }
-    quantity_.observation_decimals = keys_.decimals_as_written("observations");
+    quantity_.observation_decimals = written->decimals;
     const double u = pooled_s ? gum::u_of_mean(*pooled_s, observations->size()) : summary->standard_deviation_of_mean;
     if (pooled_s) {
         quantity_.pooled_standard_deviation = difference_to_si(*pooled_s);
@@ -156,7 +158,10 @@ bool StatementReader::read_lists_of(gum::GroupedReadings& groups) const {
                 readings.push_back(list[j].get<double>());
             } else if (!list[j].is_discarded()) {
                 keys_.problems("groups").refuse(k_wrong_type, keys_.document("groups").where(child_pointer(pointer, j)),
-                                                described(list[j]), "must be a number", "correct the value");
+                                                described(list[j]), "must be a number",
+                                                list[j].is_string()
+                                                    ? advice_for_number(list[j].get_ref<const std::string&>())
+                                                    : "correct the value");
                 fits = false;
             } else {
                 fits = false;

@@ -138,8 +138,8 @@ private:
         if (!names.empty()) {
             problems_.warn(
                 k_warn_roles_without_points, document_.where(first),
-                std::string(names.size() == 1 ? "role or stage of " : "roles or stages of ") + text::listed(names, 5) +
-                    ", and no points",
+                std::string(names.size() == 1 ? "role, stage or form of " : "roles, stages or forms of ") +
+                    text::listed(names, 5) + ", and no points",
                 "a role is the heading of a column, the name of its numbers in the digital certificate, and the "
                 "place at which an error is held against a scope; without points there is no such table",
                 "state \"points\": [{}]: one row with all of them");
@@ -227,6 +227,22 @@ private:
         }
         for (const gum::BudgetInput& i : job_.inputs) {
             names.push_back(i.name);
+        }
+        return names;
+    }
+
+    /// Columns of points and inputs that have a role.
+    [[nodiscard]] std::vector<std::string> columns_with_role(std::string_view role) const {
+        std::vector<std::string> names;
+        for (const PointColumn& c : job_.point_columns) {
+            if (c.role == role) {
+                names.push_back(c.name);
+            }
+        }
+        for (const auto& [name, part] : job_.input_parts) {
+            if (part.role == role && column(name) == nullptr) {
+                names.push_back(name);
+            }
         }
         return names;
     }
@@ -1023,7 +1039,18 @@ private:
         for (const certificate::AgreedSpecification& s : job_.certificate->specifications) {
             for (const std::string& needed :
                  s.limits ? certificate::columns_of_limits(*s.limits) : std::vector<std::string>()) {
-                if (column(needed) == nullptr) {
+                if (column(needed) != nullptr) {
+                    continue;
+                }
+                if (std::vector<std::string> names = columns_with_role(needed); !names.empty()) {
+                    std::transform(names.begin(), names.end(), names.begin(),
+                                   [](const std::string& name) { return text::in_quotes(name); });
+                    problems_.refuse(k_table_column, document_.where("/certificate"),
+                                     text::in_quotes(needed) + " is the role of " + text::listed(names, 5) +
+                                         ", and no column of the points",
+                                     "limits know columns of points and inputs by their names",
+                                     "write " + names.front() + " in its place");
+                } else {
                     refuse_name(needed, document_.where("/certificate"));
                 }
             }

@@ -183,7 +183,9 @@ bool acceptable_word(const std::string& word, std::initializer_list<const char*>
 
 void refuse_type(const json& value, std::string_view expected, const CertificatePlace& place) {
     place.refuse(k_certificate_type, described(value), "must be " + std::string(expected),
-                 value.is_null() ? "leave the key out where there is nothing to state" : "correct the value");
+                 value.is_null()                               ? "leave the key out where there is nothing to state"
+                 : value.is_string() && expected == "a number" ? advice_for_number(value.get_ref<const std::string&>())
+                                                               : "correct the value");
 }
 
 void read_localised(const json& value, certificate::LocalisedText& text, bool may_be_empty,

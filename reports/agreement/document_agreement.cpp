@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::string_view k_of_index = "_";  // "R_0" is set with an index
 constexpr std::size_t k_gap_of_power = 5;     // "10" and an exponent
-constexpr std::string_view k_degrees = "\u00B0", k_minutes = "\u2032", k_minus_sign = "\u2212";
+constexpr std::string_view k_degrees = "\u00B0", k_minutes = "\u2032", k_seconds = "\u2033";
 
 using certificate::CertifiedColumn;
 using certificate::CertifiedTable;
@@ -81,6 +81,15 @@ bool has_word(std::string_view text, std::string_view word) {
         }
     }
     return false;
+}
+
+/// Whether 05″ or 05.0″ stands behind an angle, which then does not end with its minutes.
+bool begins_with_seconds(std::string_view text) {
+    constexpr std::size_t k_digits = 2;
+    const std::size_t end = std::min(text.find_first_not_of("0123456789.,"), text.size());
+    return !text.empty() && text.front() < '6' &&
+           std::min(text.find_first_not_of("0123456789"), text.size()) == k_digits &&
+           text.substr(end).starts_with(k_seconds);
 }
 
 /// "0E+1" of a record, beside U = 4.8E+2: printed as "0", and by earlier versions as "0 × 10¹".
@@ -343,9 +352,11 @@ bool PrintedDocument::is_at(std::size_t digit, const Cell& cell) const {
         return false;
     }
     if (!cell.angle.empty()) {
-        const std::string_view before = std::string_view(text_).substr(0, places_[digit]);
-        const std::string_view here = std::string_view(text_).substr(before.size(), cell.angle.size());
-        return before.ends_with(k_minus_sign) == cell.is_negative && here.size() == cell.angle.size() &&
+        const std::string_view text = text_;
+        const std::string_view here = text.substr(places_[digit], cell.angle.size());
+        return begins_a_number(read_, read_place_of_digit(digit), cell.is_negative) &&
+               here.size() == cell.angle.size() &&
+               !(here.ends_with(k_minutes) && begins_with_seconds(text.substr(places_[digit] + here.size()))) &&
                std::equal(here.begin(), here.end(), cell.angle.begin(),
                           [](char a, char b) { return a == b || (a == ',' && b == '.'); });
     }

@@ -134,7 +134,7 @@ int exponent_behind(std::string_view text, std::size_t at) {
 
 }  // namespace
 
-bool is_printed_at(std::string_view text, std::size_t begin, const NumberAsPrinted& number) {
+bool begins_a_number(std::string_view text, std::size_t begin, bool negative) {
     if (begin > 0) {
         std::size_t before = begin - 1;
         while (before > 0 && text[before] == k_joint) {
@@ -146,6 +146,13 @@ bool is_printed_at(std::string_view text, std::size_t begin, const NumberAsPrint
         if (is_fraction || is_digit_here(text, begin - 1)) {
             return false;
         }
+    }
+    return has_minus(text, begin) == negative;
+}
+
+bool is_printed_at(std::string_view text, std::size_t begin, const NumberAsPrinted& number) {
+    if (!begins_a_number(text, begin, number.negative)) {
+        return false;
     }
     std::size_t at = begin;
     for (std::size_t i = 0; i < number.digits.size(); ++i) {
@@ -162,7 +169,7 @@ bool is_printed_at(std::string_view text, std::size_t begin, const NumberAsPrint
         ++at;
     }
     return !is_digit_here(text, at) && !is_decimal_sign(text, behind_joints(text, at)) &&
-           has_minus(text, begin) == number.negative && exponent_behind(text, at) == number.exponent;
+           exponent_behind(text, at) == number.exponent;
 }
 
 std::vector<NumberAsPrinted> numbers_as_printed(std::string_view text) {

@@ -23,6 +23,10 @@ struct NumberAsPrinted {
     }
 };
 
+/// Whether a number of this sign begins with a digit of a document, and no longer one.
+/// \param begin  of the digit
+[[nodiscard]] bool begins_a_number(std::string_view text, std::size_t begin, bool negative);
+
 /// Whether a document prints a number where a digit of it stands, as it is: neither as a part of a longer one, nor with
 /// another sign, decimal sign or exponent. A number may be drawn in pieces (k_end_of_drawn_text): where two of them
 /// meet, it is not known whether a number ends.

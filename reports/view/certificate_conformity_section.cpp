@@ -1,7 +1,9 @@
 #include "reports/view/certificate_conformity_section.h"
 
+#include "certificate/point_names.h"
 #include "certificate/point_tables.h"
 #include "gum/quantity/unit.h"
+#include "reports/point_headings.h"
 #include "reports/printed_texts.h"
 #include "reports/result_names.h"
 #include "reports/view/certified_overview.h"
@@ -37,8 +39,9 @@ struct Decided {
     const CertifiedColumn* column = nullptr;
     const CertifiedValue* value = nullptr;
     const CertifiedTable::Argument* argument = nullptr;
-    std::string at;          ///< printed argument; "" without
+    std::string at;          ///< printed argument, or what its row shows in its place; "" without
     std::string table = {};  ///< id
+    bool is_named = false;   ///< `at` is what its row shows
     bool is_shown = false;   ///< its limits and verdict stand in the table of results
     std::string form = {};   ///< of its values, as in the table of results
 
@@ -48,6 +51,7 @@ struct Decided {
 };
 
 std::vector<Decided> decided_by(const Certificate& certificate, const AgreedSpecification& specification) {
+    const auto points = certificate::identities_of_rows(certificate.tables);
     std::vector<Decided> all;
     for (const CertifiedTable& table : certificate.tables) {
         for (const CertifiedColumn& column : table.columns) {
@@ -57,8 +61,12 @@ std::vector<Decided> decided_by(const Certificate& certificate, const AgreedSpec
                     all.push_back({.column = &column,
                                    .value = &v,
                                    .argument = table.argument ? &*table.argument : nullptr,
-                                   .at = table.argument ? table.argument->printed.at(i) : std::string(),
+                                   .at = !table.argument ? std::string()
+                                         : certificate::hides_points(table)
+                                             ? points.at(table.argument->printed.at(i)).name
+                                             : table.argument->printed.at(i),
                                    .table = table.id,
+                                   .is_named = certificate::hides_points(table),
                                    .is_shown = shows_verdict(table, column.result),
                                    .form = certificate::form_of_result(table, column.result)});
                 }
@@ -393,7 +401,7 @@ void verdict_table(CertificateBuilder& builder, const Wording& words, const Agre
     for (std::size_t i = 0; i < decided.size(); ++i) {
         std::vector<Text> row = {name_of_result(decided[i].table, decided[i].column->result, words)};
         if (any_argument) {
-            row.emplace_back(decided[i].at);
+            row.push_back(decided[i].is_named ? point_in_words(decided[i].at, words) : Text(decided[i].at));
         }
         for (const VerdictColumn& column : numbers) {
             row.emplace_back(column.texts[i]);

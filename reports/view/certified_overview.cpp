@@ -1,6 +1,7 @@
 #include "reports/view/certified_overview.h"
 
 #include "certificate/point_names.h"
+#include "reports/point_headings.h"
 #include "reports/printed_texts.h"
 #include "reports/result_names.h"
 #include "reports/view/certified_value_tables.h"
@@ -176,19 +177,6 @@ bool CertifiedOverview::any(const Holds& holds) const {
         }
     }
     return false;
-}
-
-Text point_in_words(const std::string& name, const Wording& words) {
-    constexpr std::string_view k_before_unit = "\u00A0";
-    Text text;
-    for (std::size_t begin = 0; begin < name.size();) {
-        const std::size_t end = std::min(name.find(", ", begin), name.size());
-        const std::string part = name.substr(begin, end - begin);
-        text += begin == 0 ? "" : ", ";
-        text += part.find(k_before_unit) == std::string::npos ? Text(part) : words.number(part);
-        begin = end + 2;
-    }
-    return text;
 }
 
 std::vector<Text> names_of_values(const certificate::Certificate& certificate, const CertifiedOverview::Holds& named,

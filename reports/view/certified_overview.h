@@ -73,9 +73,6 @@ private:
     bool k_column_ = false, nu_beside_k_ = false, raised_ = false, exact_ = false;
 };
 
-/// What a point is called by (certificate/point_names.h), with the decimal sign of the language in numbers that have a unit.
-[[nodiscard]] Text point_in_words(const std::string& name, const Wording& words);
-
 /// The values that a sentence is about, by name: "l" where it holds for all values of l, else each with its point,
 /// "E[10 mm]", and rows that follow each other by the first and the last of them, "E[10 mm] to E[90 mm]".
 [[nodiscard]] std::vector<Text> names_of_values(const certificate::Certificate& certificate,

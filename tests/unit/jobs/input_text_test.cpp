@@ -66,6 +66,14 @@ TEST(InputText, HasAtMost64Megabytes) {
 }
 
 /// What a rule says holds for what it lets through, at its ends too.
+TEST(InputText, AdvisesWhatANumberIs) {
+    EXPECT_EQ(advice_for_number("5.0"), "write the number without quotes");
+    EXPECT_THAT(advice_for_number("-0° 00' 02.50\""),
+                testing::HasSubstr("signs of degrees, minutes or seconds: it is -2.5 in arcsec"));
+    EXPECT_THAT(advice_for_number("12:30:05"), testing::HasSubstr("05.0\u2033"));
+    EXPECT_THAT(advice_for_number("5' 3°"), testing::EndsWith("or seconds"));
+}
+
 TEST(NumberRanges, SayWhatTheyAllow) {
     const double next = std::nextafter(0.0, 1.0);
     const std::vector<std::tuple<NumberRange, std::string, double, double>> ranges{

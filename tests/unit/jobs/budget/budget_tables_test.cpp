@@ -638,6 +638,8 @@ TEST(BudgetTables, RefuseAPointWithoutTheLimitsOfItsSpecification) {
         limits(
             R"j({"by": "steps", "arguments": [{"name": "L", "unit": "V", "of": "W"}], "steps": [{"up_to": 1, "mpe": 1}]})j"),
         k_table_column, "\"W\" is nothing that the points of this job have");
+    expect_refusal(limits(R"j({"by": "accuracy", "of": "reference", "accuracy": [{"percent_of_reading": 1}]})j"),
+                   k_table_column, "\"reference\" is the role of \"V_s\", and no column of the points");
     EXPECT_TRUE(budget_refusals(limits(R"j({"by": "accuracy", "of": "V_s", "accuracy": [{"percent_of_reading": 1}]})j"),
                                 k_points)
                     .empty());

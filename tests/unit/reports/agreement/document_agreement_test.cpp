@@ -97,7 +97,6 @@ TEST(DocumentsAndRecords, AgreeInEveryLanguageAndForm) {
     }
 }
 
-// Law: what no certificate is, is told by its mark, in every language and with every pair of languages.
 /// Degrees, minutes and seconds: sums of readings by hand, in the decimal sign of each language.
 TEST(DocumentsAndRecords, PrintAnglesInTheirParts) {
     const auto found = std::ranges::find_if(
@@ -124,6 +123,48 @@ TEST(DocumentsAndRecords, PrintAnglesInTheirParts) {
     EXPECT_NE(disagreement(page, record), "");
 }
 
+// An angle is a number as others are: no part of a longer one, with its own sign, to its last part.
+TEST(DocumentsAndRecords, DisagreeInAnglesThatAreOthers) {
+    EvaluationRecord record = example_certificates().front().second;
+    const DocumentWords words = document_words(read_every_wording(k_agreement_templates));
+    const auto disagrees = [&](const std::string& angle) {
+        return !PrintedDocument({"EX-1 l " + angle + " 67 \u2033 pass of 2"})
+                    .disagreement_with(*record.certificate, words)
+                    .empty();
+    };
+    const auto state = [&](const char* seconds, const char* unit) {
+        certificate::CertifiedTable& table = record.certificate->tables.at(0);
+        table.layout = certificate::TableLayout{};
+        table.layout->shown = {{.show = "value",
+                                .of = table.columns.at(0).result,
+                                .heading = {},
+                                .role = "",
+                                .stage = "",
+                                .form = "sexagesimal"}};
+        table.columns.at(0).unit = unit;
+        for_each_value(record, [&](CertifiedValue& value) {
+            value.printed_value = seconds;
+            value.verdict.reset();
+        });
+    };
+    state("7205.0", "arcsec");
+    EXPECT_FALSE(disagrees("2° 00′ 05.0″"));
+    EXPECT_FALSE(disagrees("2° 00′ 05,0″"));
+    for (const char* const other : {"12° 00′ 05.0″", "0.2° 00′ 05.0″", "\u22122° 00′ 05.0″", "-2° 00′ 05.0″",
+                                    "2° 00′ 05.1″", "2° 00′ 05.0′", "2 00 05.0", "2° 00′ 5.0″"}) {
+        EXPECT_TRUE(disagrees(other)) << other;
+    }
+    state("-3.2", "arcsec");
+    EXPECT_FALSE(disagrees("\u22120° 00′ 03.2″"));
+    EXPECT_FALSE(disagrees("-0° 00′ 03.2″")) << "a template may print this minus sign";
+    EXPECT_TRUE(disagrees("0° 00′ 03.2″"));
+    state("120", "arcmin");
+    EXPECT_FALSE(disagrees("2° 00′"));
+    EXPECT_TRUE(disagrees("2° 00′ 05″"));
+    EXPECT_TRUE(disagrees("2° 00′ 05.0″"));
+}
+
+// Law: what no certificate is, is told by its mark, in every language and with every pair of languages.
 TEST(DocumentsAndRecords, DisagreeWhereAMarkSaysThatItIsNone) {
     const std::vector<std::pair<const char*, void (*)(EvaluationRecord&)>> states = {
         {"draft", [](EvaluationRecord& record) { record.certificate->blocked = true; }},

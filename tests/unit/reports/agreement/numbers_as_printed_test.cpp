@@ -91,6 +91,12 @@ TEST(NumberAsPrinteds, AreNotWhatLooksLikeThem) {
           std::string("4,9 \u00D7 10\u00B3"), std::string("0.4.9"), "2." + joint + "4.9"}) {
         EXPECT_FALSE(is_printed_at(page, page.find('4'), *only_number_as_printed("4.9"))) << page;
     }
+    EXPECT_TRUE(begins_a_number("at 4\u00B0", 3, false));
+    EXPECT_TRUE(begins_a_number("\u2212 4\u00B0", 4, true));
+    EXPECT_TRUE(begins_a_number("-4\u00B0", 1, true));
+    for (const char* const other : {"14\u00B0", "2.4\u00B0", "-4\u00B0", "\u22124\u00B0"}) {
+        EXPECT_FALSE(begins_a_number(other, std::string(other).find('4'), false)) << other;
+    }
     EXPECT_FALSE(is_printed_at("49" + joint + ".5", 0, *only_number_as_printed("49")));
     EXPECT_TRUE(is_printed_at("20" + joint + "4.9" + joint + "1.4", 3, *only_number_as_printed("4.9")));
 }

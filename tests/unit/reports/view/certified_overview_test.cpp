@@ -12,7 +12,10 @@
 #include <vector>
 
 #include "reports/forms/asset_files.h"
+#include "reports/reported_results.h"
+#include "reports/view/certificate_conformity_section.h"
 #include "tests/unit/reports/document_text.h"
+#include "tests/unit/reports/view_blocks.h"
 
 namespace gumcert::reports {
 namespace {
@@ -87,6 +90,55 @@ TEST(NamesOfValues, AreNotTheNamesOfPointsThatNoTablePrints) {
     EXPECT_THAT(names_in("en", certificate), ElementsAre("E[3\u00A0V]"));
     table.layout->shown.push_back({.show = "point", .of = "", .heading = {}, .role = "", .stage = ""});
     EXPECT_THAT(names_in("en", certificate), ElementsAre("E[high]"));
+}
+
+// So say the other places where a value is called by its point.
+TEST(NamesOfValues, StandInTheTableOfVerdicts) {
+    Certificate certificate;
+    certificate.tables = {table_of("", 1, {"1.5", "2"})};
+    certificate::AgreedSpecification& agreed = certificate.data.specifications.emplace_back();
+    agreed.id = "s";
+    agreed.rule.id = "DR-01";
+    for (certificate::CertifiedValue& value : certificate.tables[0].columns[0].values) {
+        certificate::Verdict& verdict = value.verdict.emplace();
+        verdict.specification = "s";
+        verdict.rule = "DR-01";
+        verdict.verdict = "pass";
+        verdict.printed.lower = "0";
+    }
+    const Wording words(nlohmann::json::parse(read_asset(assets().templates / "wording/de.json")));
+    const auto points = [&] {
+        CertificateBuilder builder(words);
+        conformity_section(builder, words, certificate);
+        std::vector<std::string> cells;
+        for (const auto& row : rows_of({{"sections", builder.take()}}, "conformity-0")) {
+            cells.push_back(row.at(1));
+        }
+        return cells;
+    };
+    EXPECT_THAT(points(), ElementsAre("1,5\u00A0V", "2\u00A0V"));
+    certificate.tables[0].layout->shown.push_back({.show = "point", .of = "", .heading = {}, .role = "", .stage = ""});
+    EXPECT_THAT(points(), ElementsAre("1", "2"));
+}
+
+TEST(NamesOfValues, StandInTheReasonsForMonteCarlo) {
+    EvaluationRecord record;
+    record.certificate.emplace().tables = {table_of("", 1, {"1.5", "2"})};
+    for (const char* const point : {"1", "2"}) {
+        Result& result = record.results.emplace_back();
+        result.quantity = "E";
+        result.point = point;
+        result.name = std::string("E[") + point + "]";
+    }
+    const Wording words(nlohmann::json::parse(read_asset(assets().templates / "wording/en.json")));
+    record.results[1].reported.because = "asymmetric";
+    EXPECT_THAT(reasons_for_monte_carlo(record, words).at(0).first(), testing::HasSubstr("E[2\u00A0V]"));
+    record.results[0].reported.because = "asymmetric";
+    EXPECT_THAT(reasons_for_monte_carlo(record, words).at(0).first(), testing::HasSubstr("reported for E, because"))
+        << "all of them";
+    record.results[0].reported.because = "";
+    record.certificate.reset();
+    EXPECT_THAT(reasons_for_monte_carlo(record, words).at(0).first(), testing::HasSubstr("E[2]"));
 }
 
 }  // namespace
