@@ -162,7 +162,11 @@ std::optional<double> factor_of_stated(const gum::Unit& c, const gum::Unit& row,
 /// The factor of a coefficient without a unit.
 /// \param of_number  where it is a number of the unit of the contribution per the unit of the row
 double factor_of_bare(const AuditedRow& row, const std::string& result_unit, double of_number) {
-    const std::optional<double> of_quantity = factor_between(row.unit, result_unit);
+    std::optional<double> of_quantity = factor_between(row.unit, result_unit);
+    if (!of_quantity && is_unit_of_part(row.unit)) {
+        of_quantity =
+            size_of_unit(*known_unit(row.unit));  // 2.3 mg of a row in percent, as it is multiplied with 0.005
+    }
     const double c = row.sensitivity ? std::abs(row.sensitivity->value) : 1.0;
     const double u = u_of(row);
     if (!of_quantity || row.unit.empty() || *of_quantity == of_number || !row.contribution || !(c * u > 0.0)) {

@@ -59,6 +59,18 @@ TEST(TableUnits, AreThoseOfHeadsAndCells) {
     EXPECT_EQ(shared_unit("µm", "mm"), "µm");
 }
 
+TEST(TableUnits, OfACoefficientOfARowInPercentMayBeThatOfTheResult) {
+    const auto table = [](const std::string& heads, const std::string& u, const std::string& contribution) {
+        return report_of("Quantity," + heads +
+                         ",unit,Divisor,c,Contribution / mg\nReference,0.050,mg,2,1,0.0250\nScatter,0.016,mg,2,1,"
+                         "0.0080\nBuoyancy," +
+                         u + ",2.3," + contribution + "\nu_c,,,,,0.0271\nU (k = 2),,,,,0.054\n");
+    };
+    EXPECT_TRUE(critical_in(table("U or a", "0.5,%,1.732", "0.0066")).empty());
+    EXPECT_TRUE(critical_in(table("U or a", "5000,ppm,1.732", "0.0066")).empty());
+    EXPECT_FALSE(critical_in(table("U or a", "0.5,%,1.732", "0.664")).empty()) << "1 % is 2.3 mg, which u_c has not";
+}
+
 TEST(TableUnits, OfAContributionWithoutOneAreThoseOfTheOthers) {
     // The law: one contribution that lost its unit changes nothing, in whatever units u and the result are.
     const std::vector<std::pair<std::string, double>> rows = {{"Reference (certificate; U = 3.0 µV; k = 2)", 1.5},
