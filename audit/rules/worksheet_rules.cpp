@@ -16,6 +16,7 @@
 #include "audit/rules/read_cells.h"
 #include "audit/rules/registry.h"
 #include "audit/rules/row_edits.h"
+#include "audit/rules/stated_outcome.h"
 #include "audit/rules/worksheet_view.h"
 #include "text/numbers.h"
 #include "text/small_letters.h"
@@ -175,6 +176,12 @@ std::optional<double> k_of_distribution(const AuditedRow& row) {
     return has_U || !row.distribution_k || *row.distribution_k < k_none ? std::nullopt : row.distribution_k;
 }
 
+/// Whether words of a row may say that its number is the distance of two limits.
+bool names_a_width(const AuditedRow& row) {
+    return says(words_of_row(row) + " " + row.shape_text,
+                {"±", "+/-", "span", "range", "width", "breite", "spann", "weite"});
+}
+
 void divisor_against_label(const AuditSubject& subject, FindingCollector& findings) {
     const std::optional<WorksheetView> view = worksheet_of(subject);
     for_each_row(subject, [&findings, &view](const RowAt& at) {
@@ -238,8 +245,10 @@ void divisor_against_label(const AuditSubject& subject, FindingCollector& findin
         const auto correct = [&at](const std::optional<double>& u, double factor) {
             return u && at.is.used_u > 0.0 ? change_u(at, *u) : scale_u(at.row, factor);
         };
-        if (k && divisor == 1.0) {
-            // The number may be a standard uncertainty already, and k that of the certificate that it comes from.
+        // The number may be a standard uncertainty already, and k that of the certificate that it comes from; or the whole
+        // width of ± U, by the words of the row.
+        const bool is_whole_width = k && is_about(divisor, 2.0 * *k, 2e-4) && names_a_width(at.is);
+        if (k && (divisor == 1.0 || is_whole_width)) {
             finding.expected = say_number(text::significant(*k, 6));
             findings.add(std::move(finding), FindingSeverity::minor);
             return;
@@ -465,6 +474,21 @@ bool is_deviation(const WorksheetView& view, const SheetFormula& formula, const 
             says(label, {"standard deviation", "standardabweichung", "stdev", "std dev", " s of "}));
 }
 
+/// Whether words speak of pieces and have a number twice, as those of a row that has n readings of n pieces together: "stack of 10
+/// sheets, 10 readings".
+bool counts_pieces(const std::string& words, const std::string& number) {
+    constexpr std::string_view k_of_numbers = "0123456789.,";
+    std::size_t times = 0;
+    for (std::size_t at = words.find(number); at != std::string::npos; at = words.find(number, at + number.size())) {
+        const std::size_t end = at + number.size();
+        const bool begins = at == 0 || k_of_numbers.find(words[at - 1]) == std::string_view::npos;
+        const bool ends = end == words.size() || words[end] < '0' || words[end] > '9';
+        times += begins && ends ? 1U : 0U;
+    }
+    return times > 1 && says(words, {"stack", "sheet", "layer", "swing", "period", "oscillation", "turn", "revolution",
+                                     "piece", "stapel", "blatt", "blätter", "lage", "schwing", "umdreh", "stück"});
+}
+
 /// W04: s/n in place of s/√n, of a row that says how many readings there are.
 void divided_by_n(const WorksheetView& view, const RowAt& at, FindingCollector& findings) {
     const SheetFormula* maker = at.is.u && !at.is.stated ? view.maker_of(at.is.u->place) : nullptr;
@@ -492,6 +516,10 @@ void divided_by_n(const WorksheetView& view, const RowAt& at, FindingCollector& 
     finding.evidence = {say_number(text_of(view, *maker)), equals("n", text::shortest(n))};
     finding.expected = say("√{n:number}", text::shortest(n));
     finding.actual = say_number(text::shortest(n));
+    if (counts_pieces(words_of_row(at.is), text::shortest(n))) {  // s of a stack is n times that of a sheet
+        findings.add(std::move(finding), FindingSeverity::minor);
+        return;
+    }
     finding.correct = scale_u(at.row, std::sqrt(n));
     findings.add(std::move(finding));
 }
@@ -1234,7 +1262,8 @@ std::vector<Rule> worksheet_rules() {
          .detection =
              "the divisor is not that of the named distribution, beyond its printed digits: √3, √6, √2, k; √n of "
              "readings is that of their mean; not where divisor 1 stands beside what was divided so already; beside a "
-             "stated k, \"normal (k = 2)\", the divisor 1 is asked about",
+             "stated k, \"normal (k = 2)\", the divisor 1 is asked about, and 2 k where words may speak of a whole "
+             "width",
          .correction =
              "Divide by the divisor of the distribution, or name the distribution that the divisor belongs to.",
          .question = "Which of the two is meant, the distribution or the divisor?",
@@ -1254,7 +1283,8 @@ std::vector<Rule> worksheet_rules() {
          .clause = {.text = "JCGM 100:2008, 4.2.3", .verified = true},
          .needs = {Need::workbook},
          .detection = "text among readings; n of the divisor is not the number of readings in the range; STDEV.P of "
-                      "readings about their own mean, unless √(n − 1) divides it; s/n of n readings",
+                      "readings about their own mean, unless √(n − 1) divides it; s/n of n readings, asked where these "
+                      "are of n pieces together",
          .correction = "Correct the reading, and divide by the root of the number of readings that count.",
          .question = "How many readings were taken, and which of them count?",
          .examine = count_of_readings},

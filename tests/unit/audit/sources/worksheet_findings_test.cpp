@@ -90,6 +90,15 @@ TEST(WorksheetFindings, W04SeesADeviationOverN) {
         EXPECT_TRUE(found(row, "=G1/G2", other, "9").empty()) << other;
     }
     EXPECT_TRUE(found("Repeatability", "=G1/10", label, "4").empty()) << "ten of what?";
+    // s of a stack over its sheets is that of one sheet: asked, and not corrected.
+    for (const char* const pieces :
+         {"Thickness of a sheet, stack of 10 sheets, 10 readings", "Period, 10 swings, mean of 10 readings"}) {
+        const std::vector<AuditFinding> findings = found(pieces, "=G1/10", label, "9");
+        ASSERT_EQ(findings.size(), 1U) << pieces;
+        EXPECT_EQ(findings[0].severity, FindingSeverity::minor) << pieces;
+        EXPECT_FALSE(findings[0].effect) << pieces;
+    }
+    EXPECT_TRUE(found("Sheet, 10 readings", "=G1/10", label, "9").at(0).effect);
 }
 
 TEST(WorksheetFindings, W12TellsOfWhatIsHiddenInTheSum) {
