@@ -524,6 +524,95 @@ void divided_by_n(const WorksheetView& view, const RowAt& at, FindingCollector& 
     findings.add(std::move(finding));
 }
 
+/// What COUNT gives of an area, or COUNTA, which counts words as well; nothing of a large one.
+std::optional<std::size_t> counted_in(const WorksheetView& view, const workbook::Area& area, bool with_words) {
+    constexpr std::uint64_t k_most = 1000;
+    const workbook::CellRange& range = area.range;
+    const std::uint64_t rows = range.last.row - range.first.row + 1U,
+                        columns = range.last.column - range.first.column + 1U;
+    if (rows * columns > k_most) {
+        return std::nullopt;
+    }
+    std::size_t numbers = 0;
+    for (std::uint32_t row = range.first.row; row <= range.last.row; ++row) {
+        for (std::uint32_t column = range.first.column; column <= range.last.column; ++column) {
+            const CellValue value = view.value({.sheet = area.sheet, .address = {.row = row, .column = column}});
+            const bool is_counted =
+                value.kind == CellKind::number || (with_words && value.kind == CellKind::text && !value.text.empty());
+            numbers += is_counted ? 1U : 0U;
+        }
+    }
+    return numbers;
+}
+
+/// Areas of several cells that a formula reads, each once.
+std::vector<workbook::Area> ranges_read(const WorksheetView& view, const CellPlace& cell) {
+    std::vector<workbook::Area> ranges;
+    for (const workbook::Area& area : view.areas_read(cell)) {
+        const bool is_known = std::any_of(ranges.begin(), ranges.end(), [&area](const workbook::Area& other) {
+            return other.sheet == area.sheet && other.range == area.range;
+        });
+        if (!is_known && !(area.range.first == area.range.last)) {
+            ranges.push_back(area);
+        }
+    }
+    return ranges;
+}
+
+/// W04 of a row whose u is s/√n in one formula: n counts a range that reaches beyond the readings, as over their mean and s below them.
+void counted_beyond_readings(const WorksheetView& view, const RowAt& at, FindingCollector& findings) {
+    const SheetFormula* maker = at.is.u && !at.is.stated ? view.maker_of(at.is.u->place) : nullptr;
+    if (maker == nullptr || !(at.is.used_u > 0.0)) {
+        return;
+    }
+    const FormulaNode& quotient = maker->formula.nodes[maker->formula.root()];
+    if (quotient.kind != FormulaNodeKind::divide || quotient.children != 2) {
+        return;
+    }
+    const auto operands = maker->formula.children_of(quotient);
+    const FormulaNode &spread = maker->formula.nodes[operands[0]], &root = maker->formula.nodes[operands[1]];
+    if (!is_deviation(view, *maker, spread) || !is_call(root, {"SQRT"}) || root.children != 1) {
+        return;
+    }
+    const FormulaNode& count = maker->formula.nodes[maker->formula.children_of(root)[0]];
+    const bool with_words = is_call(count, {"COUNTA"});
+    if (!with_words && !is_call(count, {"COUNT"})) {
+        return;
+    }
+    const std::optional<CellPlace> cell = view.cell_of(*maker, spread);
+    std::vector<workbook::Area> of_formula = ranges_read(view, maker->cell),
+                                of_spread = cell ? ranges_read(view, *cell) : std::vector<workbook::Area>();
+    if (!cell && of_formula.size() == 2) {
+        of_spread.push_back(of_formula.front());
+        of_formula.erase(of_formula.begin());
+    }
+    if (of_formula.size() != 1 || of_spread.size() != 1) {
+        return;
+    }
+    const workbook::Area &counted = of_formula.front(), &readings = of_spread.front();
+    const workbook::CellRange &outer = counted.range, &inner = readings.range;
+    const bool reaches_beyond = counted.sheet == readings.sheet && outer.first.row <= inner.first.row &&
+                                outer.first.column <= inner.first.column && outer.last.row >= inner.last.row &&
+                                outer.last.column >= inner.last.column;
+    const std::optional<std::size_t> n = counted_in(view, counted, with_words),
+                                     of_readings = counted_in(view, readings, false);
+    if (!reaches_beyond || !n || !of_readings || *of_readings < 2 || *n <= *of_readings) {
+        return;
+    }
+    const auto used = static_cast<double>(*n), right = static_cast<double>(*of_readings);
+    const ReadingsRange range{
+        .numbers = *of_readings, .cells = *of_readings, .runs = {}, .area = workbook::a1_text(inner)};
+    AuditFinding finding =
+        finding_at(at, at.is.u->place,
+                   say("√{n:number} divides a standard deviation of {area}, which has {numbers} in {cells}",
+                       text::shortest(used), range.area, numbers_in_words(range), cells_in_words(range)));
+    finding.expected = say("√{n:number}", text::shortest(right));
+    finding.actual = say("√{n:number}", text::shortest(used));
+    finding.evidence = {say_number(text_of(view, *maker))};
+    finding.correct = scale_u(at.row, std::sqrt(used / right));
+    findings.add(std::move(finding));
+}
+
 void count_of_readings(const AuditSubject& subject, FindingCollector& findings) {
     const std::optional<WorksheetView> view = worksheet_of(subject);
     ReadCells cells(*view);
@@ -579,6 +668,7 @@ void count_of_readings(const AuditSubject& subject, FindingCollector& findings) 
     for_each_row(subject, [&](const RowAt& at) {
         deviation_by_n(*view, at, findings);
         divided_by_n(*view, at, findings);
+        counted_beyond_readings(*view, at, findings);
     });
     tell_limit(cells, findings);
 }
