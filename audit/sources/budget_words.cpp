@@ -497,12 +497,18 @@ std::string_view number_of_k(std::string_view text, std::size_t at) {
                                             "coverage factor",
                                             "Coverage factor",
                                             "Erweiterungsfaktor",
-                                            "erweiterungsfaktor"};
+                                            "erweiterungsfaktor",
+                                            "COVERAGE FACTOR",
+                                            "ERWEITERUNGSFAKTOR",
+                                            "K"};
     for (const std::string_view word : k_words) {
         if (!text.substr(at).starts_with(word)) {
             continue;
         }
         std::string_view behind = text.substr(at + word.size());
+        if (word == "K" && !trimmed(behind).starts_with('=')) {
+            continue;  // "EXPANDED UNCERTAINTY (K = 2)"; else it is a kelvin
+        }
         if (!behind.empty() && (is_letter(behind.front()) || is_of_number(behind.front()) || behind.front() == '_')) {
             continue;
         }
@@ -775,7 +781,9 @@ std::optional<Column> column_of(std::string_view head) {
             continue;
         }
         const std::string_view symbol = text.substr(at + 1);
-        const std::optional<Column> column = meaning_of_head(trimmed(text.substr(0, at)));
+        std::string_view before = trimmed(text.substr(0, at));
+        before = before.ends_with(',') ? trimmed(before.substr(0, before.size() - 1)) : before;  // "u, mm"
+        const std::optional<Column> column = meaning_of_head(before);
         if (column == Column::stated && symbol.front() == 'u') {  // "Uncertainty u(x)"
             const std::optional<Column> of_symbol = meaning_of_head(symbol);
             return of_symbol ? of_symbol : Column::u;
@@ -997,9 +1005,11 @@ std::optional<NamedStatement> statement_named(std::string_view name, bool may_ha
     if (name.size() > k_longest) {
         return std::nullopt;
     }
-    // "Expanded uncertainty / dB, k = 2": the unit stands behind the name.
-    for (const std::string_view sign : {" / ", " in "}) {
-        const std::size_t at = may_have_unit ? name.find(sign) : std::string_view::npos;
+    // "Expanded uncertainty / dB, k = 2", "U mm (k = 2)": the unit stands behind the name.
+    for (const std::string_view sign : {" / ", " in ", " "}) {
+        const std::string of_name = sign == " " && may_have_unit ? unit_in_head(std::string(name)) : std::string();
+        const bool is_sought = may_have_unit && (sign != " " || !of_name.empty());
+        const std::size_t at = is_sought ? name.find(std::string(sign) + of_name) : std::string_view::npos;
         if (at == std::string_view::npos || at == 0) {
             continue;
         }

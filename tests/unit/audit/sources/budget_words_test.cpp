@@ -135,6 +135,9 @@ TEST(NamedStatement, HasWhatItsNameSaysBesideIt) {
     EXPECT_FALSE(named_statement("Messergebnis")->may_be_quantity);
     EXPECT_FALSE(named_statement("U (k = 2)")->may_be_quantity);
     EXPECT_EQ(named_statement("Kombinierte Standardunsicherheit")->statement, Statement::u_c);
+    EXPECT_EQ(coverage_in("EXPANDED UNCERTAINTY (K = 2)").k, "2)");
+    EXPECT_EQ(coverage_in("U (K=2.13)").k, "2.13)");
+    EXPECT_TRUE(coverage_in("T / K 2").k.empty());
     EXPECT_FALSE(named_statement("calibration of the standard (k = 2)"));
     EXPECT_FALSE(named_statement("uncertainty of the weighing, 95 %"));
 }

@@ -137,7 +137,8 @@ TEST(ResultLines, SayCoverageInTheirNamesAndWords) {
           "\"Expanded uncertainty, k=2.08, 95.45 %\",,0.104,mg",
           "U,,0.104,mg,\"k = 2.08, coverage probability 95.45 %\"", "U,0.104 mg (k = 2.08; p = 95.45 %)",
           "U = 0.104 mg\nk = 2.08\np = 95.45 %", "U95,,0.104,mg\nk95,,2.08\np,95.45 %",
-          "U,,0.104,mg\nk,k = 2.08\np,95.45 %", "U (k = 2.08),,0.104,mg\np,95.45 %"}) {
+          "U,,0.104,mg\nk,k = 2.08\np,95.45 %", "U (k = 2.08),,0.104,mg\np,95.45 %",
+          "\"U mg (k = 2.08, p = 95.45 %)\",,0.104", "\"Expanded uncertainty mg (k = 2.08; 95.45 %)\",,0.104"}) {
         const ForeignTables tables = tables_with(rows + line + "\n");
         ASSERT_EQ(tables.budgets.size(), 1U) << line;
         const Claims& claims = tables.budgets[0].claims;

@@ -47,6 +47,21 @@ TEST(TableUnits, AreThoseOfHeadsAndCells) {
          {"U in µg, k = 2", "U in µg; k = 2", "U in µg (k = 2)", "u_c in µg = 361", "U / µg (k = 2)"}) {
         EXPECT_EQ(unit_in_head(head), "µg") << head;
     }
+    // A unit behind a blank: no symbol, no share, and nothing that a number stands before.
+    for (const char* head : {"u µg", "Standard uncertainty µg", "Beitrag µg", "U µg (k = 2)", "uc µg"}) {
+        EXPECT_EQ(unit_in_head(head), "µg") << head;
+    }
+    EXPECT_EQ(unit_in_head("u µV/V"), "µV/V");
+    EXPECT_EQ(unit_in_head("Relative uncertainty %"), "%");
+    EXPECT_EQ(unit_in_head("u, mm"), "mm");
+    EXPECT_EQ(unit_in_head("Specification (±mm)"), "mm");
+    EXPECT_EQ(unit_in_head("Limits (± mm)"), "mm");
+    EXPECT_EQ(unit_in_head("Limits (± 2)"), "");
+    EXPECT_EQ(unit_in_head("U (PSI)"), "PSI");
+    for (const char* head : {"Uncertainty uA", "Product cu", "Value K", "Contribution ci", "Contribution %",
+                             "u at 10 mm", "Value min", "Sensitivity c", "u 10 mV", "Difference T/K", "mm", " mm"}) {
+        EXPECT_EQ(unit_in_head(head), "") << head;
+    }
     EXPECT_EQ(unit_in_head("U in % of reading"), "");
     EXPECT_EQ(unit_in_head("contribution (y)"), "");
     EXPECT_EQ(unit_in_head("type (A)"), "");
