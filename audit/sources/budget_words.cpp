@@ -697,9 +697,31 @@ bool is_relative_symbol(std::string_view head) {
     return is_one_of(symbol, {"w", "w_i", "wi", "w(xi)", "w(x_i)"});
 }
 
+bool is_of_relative_uncertainty(std::string_view head) {
+    if (is_relative_symbol(head)) {
+        return true;
+    }
+    for (const std::string_view text :
+         {trimmed(head), trimmed(without_unit(trimmed(head))), trimmed(without_brackets(head))}) {
+        std::string lower = text::in_small_letters(std::string(text));
+        std::erase_if(lower, [](char c) { return c == ' ' || c == '_' || c == '|' || c == ',' || c == '.'; });
+        if (is_one_of(lower, {"urel", "ur", "rsu", "relu", "u(x)/x", "u(xi)/xi", "u(y)/y", "u/x", "ui/xi", "u(q)/q"})) {
+            return true;
+        }
+    }
+    const std::string whole = text::in_small_letters(std::string(head));
+    const bool is_relative = whole.find("relativ") != std::string::npos || whole.starts_with("rel. ") ||
+                             whole.starts_with("rel ") || whole.starts_with("relat. ");
+    return is_relative && (whole.find("uncert") != std::string::npos || whole.find("unc.") != std::string::npos ||
+                           whole.find("unsich") != std::string::npos || whole.find(" u") != std::string::npos);
+}
+
 std::optional<Column> relative_column_of(std::string_view head, std::string_view unit_of_numbers) {
     head = trimmed(head);
     const std::string of_head = unit_in_head(std::string(head));
+    if (!of_head.empty() && head.ends_with(" " + of_head) && !head.ends_with("/ " + of_head)) {
+        head = trimmed(head.substr(0, head.size() - of_head.size()));  // "Relative standard uncertainty %"
+    }
     const std::optional<gum::Unit> unit = known_unit(of_head.empty() ? std::string(unit_of_numbers) : of_head);
     if (!unit || !unit->dimension().is_one()) {
         return std::nullopt;
@@ -710,7 +732,9 @@ std::optional<Column> relative_column_of(std::string_view head, std::string_view
             return column_of(head.substr(word.size()));
         }
     }
-    return is_relative_symbol(head) ? std::optional(Column::u) : std::nullopt;
+    // "u_rel / %", "RSU (%)"; "U_rel" is an expanded one.
+    const bool is_symbol_of_u = (head.starts_with('u') || head.starts_with("RSU")) && is_of_relative_uncertainty(head);
+    return is_relative_symbol(head) || is_symbol_of_u ? std::optional(Column::u) : std::nullopt;
 }
 
 std::optional<Column> column_of(std::string_view head) {

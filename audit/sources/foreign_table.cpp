@@ -966,6 +966,33 @@ private:
                 row->place, text::in_quotes(row->quantity), text::in_quotes(budget_.unread_columns.front())));
         return true;
     }
+    /// Whether a column of relative uncertainties stands beside u, as of products in chemistry, and nothing shows that u is what was added: the
+    /// rows state no unit that they share, and what is stated does not follow from them.
+    [[nodiscard]] bool needs_relative_column() {
+        const auto relative = std::find_if(budget_.unread_columns.begin(), budget_.unread_columns.end(),
+                                           [](const std::string& head) { return is_of_relative_uncertainty(head); });
+        const bool has_coefficients =
+            heads_->columns.contains(Column::sensitivity) || heads_->columns.contains(Column::contribution);
+        if (relative == budget_.unread_columns.end() || has_coefficients || budget_.rows.empty()) {
+            return false;
+        }
+        const std::string& unit = budget_.rows.front().unit;
+        const bool have_one_unit = !unit.empty() && unit != "1" &&
+                                   std::all_of(budget_.rows.begin(), budget_.rows.end(),
+                                               [&unit](const AuditedRow& row) { return row.unit == unit; });
+        const ClaimCheck check = check_claims(budget_);
+        const bool is_stated = budget_.claims.u_c || budget_.claims.U;
+        const bool follows = is_stated && check.allowed && !check.u_c_outside && !check.U_outside;
+        if (have_one_unit || (follows && !budget_.unit.empty())) {
+            return false;
+        }
+        tables_.not_read.push_back(
+            say("{table}: the table is not looked at; the column {head} has relative uncertainties and is not read, "
+                "and u of the rows has no unit that all of them state, or does not give what is stated; is the result "
+                "made up of that column?",
+                budget_.place, text::in_quotes(*relative)));
+        return true;
+    }
     /// Whether nothing says how rows make up a result: they have no coefficients and no contributions, nothing is stated, and their units
     /// cannot be added, or are not there beside a column that is not read. A sum of their u is a number of nobody.
     [[nodiscard]] bool has_no_sum() {
@@ -1185,7 +1212,7 @@ private:
                 clear();
                 return;
             }
-            if (needs_unread_column() || has_no_sum()) {
+            if (needs_unread_column() || needs_relative_column() || has_no_sum()) {
                 tables_.has_unusable = true;
                 clear();
                 return;

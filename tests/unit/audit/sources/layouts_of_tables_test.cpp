@@ -10,6 +10,7 @@
 
 #include "audit/audit.h"
 #include "audit/rules/registry.h"
+#include "audit/sources/budget_words.h"
 #include "audit/sources/workbook_subject.h"
 #include "text/numbers.h"
 #include "workbook/read_csv.h"
@@ -216,6 +217,31 @@ TEST(LayoutsOfTables, WhatIsNotUnderstoodOfHeadsIsNamed) {
         << "the first column is that of the quantities";
     EXPECT_TRUE(report_on("Point,Value,Unit,U\n1,10.1,V,0.2\n2,20.1,V,0.2\n").results.empty())
         << "results are no budget";
+}
+
+/// A product in chemistry: u(x) of its factors in their units, u(x)/x beside it, and the result made up of the latter (EURACHEM/CITAC
+/// CG 4, A1). As long as that column is not read, no u_c is made of what cannot be added.
+TEST(LayoutsOfTables, RelativeUncertaintiesBesideUAreAskedAbout) {
+    const auto table = [](const std::string& head, const std::string& mass, const std::string& volume) {
+        return "Description,Value,u," + head + "\nPurity P,0.9999,0.000058,0.000058\nMass m," + mass + "," + volume +
+               "\nVolume V,100.0,0.07,0.0007\nCombined,,,0.00086\nU (k = 2),,,0.0018\n";
+    };
+    for (const char* const head :
+         {"u(x)/x", "RSU", "u_rel", "Relative standard uncertainty", "rel. u", "w", "relative Standardunsicherheit"}) {
+        ASSERT_TRUE(is_of_relative_uncertainty(head)) << head;
+        const AuditReport report = report_on(table(head, "100.28", "0.05,0.0005"));
+        EXPECT_TRUE(report.results.empty()) << head << accused_of(report);
+        EXPECT_TRUE(tells(report, "has relative uncertainties and is not read")) << head;
+        EXPECT_TRUE(report_on(table(head, "100.28 mg", "0.05 mg,0.0005")).results.empty()) << head;
+    }
+    for (const char* const head : {"u", "u(x)", "Standard uncertainty", "relative humidity", "Relative to", "Value"}) {
+        EXPECT_FALSE(is_of_relative_uncertainty(head)) << head;
+    }
+    // Beside u in one unit it is for the reader.
+    const std::string same =
+        "Quantity,Value / V,u / V,u_rel (%)\nStandard,10.0,0.0030,0.030\nDrift,10.0,0.0040,0.040\nu_c,,0.0050,\n"
+        "U (k = 2),,0.010,\n";
+    EXPECT_EQ(report_on(same).results.size(), 1U);
 }
 
 TEST(LayoutsOfTables, SeveralStandardsAreAddedUp) {
