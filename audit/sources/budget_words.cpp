@@ -912,10 +912,11 @@ std::optional<Statement> uncertainty_in_words(std::string_view name, std::string
             return std::nullopt;
         }
     }
+    const CoverageText said = coverage_in(coverage);
+    is_noun = is_noun || (is_total && !said.k.empty());  // "Total (k = 1)": no contribution is called so
     if (!is_noun || (is_tail && !has_tail) || (is_standard && is_expanded)) {
         return std::nullopt;
     }
-    const CoverageText said = coverage_in(coverage);
     if (is_expanded || (!is_standard && is_of_expanded(said))) {
         return Statement::U;
     }

@@ -55,8 +55,14 @@ public:
         }
         read.source = words(Column::source);
         read.comment = words(Column::comment);
-        if (const Cell* cell = at(Column::quantity)) {
-            read.place = sheet_.place(cell->address);
+        const Cell* named = at(Column::quantity);
+        // Where the first column has groups, each of them once, what a row is called stands beside it.
+        for (const std::string* const beside : {&read.description, &read.source}) {
+            read.quantity = read.quantity.empty() ? *beside : read.quantity;
+        }
+        read.description = read.quantity == read.description ? "" : read.description;
+        if (named != nullptr || !row_.empty()) {
+            read.place = sheet_.place((named != nullptr ? named : row_.front())->address);
         }
         read.estimate = number(Column::estimate, units.estimate);
         read.stated = number(Column::stated, units.stated);

@@ -138,6 +138,11 @@ TEST(NamedStatement, HasWhatItsNameSaysBesideIt) {
     EXPECT_EQ(coverage_in("EXPANDED UNCERTAINTY (K = 2)").k, "2)");
     EXPECT_EQ(coverage_in("U (K=2.13)").k, "2.13)");
     EXPECT_TRUE(coverage_in("T / K 2").k.empty());
+    EXPECT_EQ(named_statement("Total (k = 1)")->statement, Statement::u_c);
+    EXPECT_EQ(named_statement("Total (k = 2)")->statement, Statement::U);
+    for (const char* const row : {"Total", "Total (dry)", "Temperature total (k = 1)", "Total pressure (k = 2)"}) {
+        EXPECT_FALSE(named_statement(row)) << row;
+    }
     EXPECT_FALSE(named_statement("calibration of the standard (k = 2)"));
     EXPECT_FALSE(named_statement("uncertainty of the weighing, 95 %"));
 }

@@ -219,6 +219,28 @@ TEST(LayoutsOfTables, WhatIsNotUnderstoodOfHeadsIsNamed) {
         << "results are no budget";
 }
 
+/// Rows in groups with a sum each: what a row is called stands beside its group, which stands once, or again.
+TEST(LayoutsOfTables, GroupsHaveTheirSumsBesideThem) {
+    for (const char* const heads : {"Group,Source", "Category,Uncertainty source", "Quantity,Source",
+                                    "Component,Influence", "Symbol,Description"}) {
+        for (const char* const again : {"Reference", ""}) {
+            const auto table = [&](const std::string& u_c, const std::string& U) {
+                return std::string(heads) + ",Value (%),Divisor,u (%)\nReference,Certificate,0.10,2,0.0500\n" + again +
+                       ",Drift,0.06,1.732,0.0346\n,Subtotal reference,,,0.0608\nItem,Resolution,0.02,1.732,0.0115\n" +
+                       (*again == '\0' ? "" : "Item") + ",Repeatability,0.03,1,0.0300\n,Subtotal item,,,0.0321\n" +
+                       ",Total (k=1),,," + u_c + "\n,Expanded (k=2),,," + U + "\n";
+            };
+            const AuditReport sound = report_on(table("0.0688", "0.14"));
+            ASSERT_EQ(sound.subject.budgets.size(), 1U) << heads << "; " << again;
+            EXPECT_FALSE(finds(sound, "K01")) << heads << "; " << again << accused_of(sound);
+            EXPECT_NEAR(sound.results.at(0).recomputed.u_c, 0.0688, 5e-5) << heads << "; " << again;
+            const AuditReport wrong = report_on(table("0.0788", "0.16"));
+            EXPECT_TRUE(finds(wrong, "K01")) << heads << "; " << again;
+            EXPECT_NEAR(wrong.results.at(0).recomputed.u_c, 0.0688, 5e-5) << heads << "; " << again;
+        }
+    }
+}
+
 /// A product in chemistry: u(x) of its factors in their units, u(x)/x beside it, and the result made up of the latter (EURACHEM/CITAC
 /// CG 4, A1). As long as that column is not read, no u_c is made of what cannot be added.
 TEST(LayoutsOfTables, RelativeUncertaintiesBesideUAreAskedAbout) {

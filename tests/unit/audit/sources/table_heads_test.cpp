@@ -35,6 +35,16 @@ TEST(TableHeads, NameAThirdColumnOfQuantities) {
     EXPECT_EQ(heads->second.size(), 1U);
 }
 
+TEST(TableHeads, OfGroupsNameNoRows) {
+    const auto first = [](const std::string& a, const std::string& b, const std::string& c) {
+        const std::optional<Heads> heads = heads_in("Group,Source,u,divisor\n" + a + ",certificate,0.1,2\n" + b +
+                                                    ",drift,0.1,1\n" + c + ",resolution,0.1,1\n");
+        return heads ? heads->columns.at(Column::quantity) : 0U;
+    };
+    EXPECT_EQ(first("reference", "reference", ""), first("reference", "", "")) << "the column of the sources";
+    EXPECT_EQ(first("reference", "drift", "display") + 1, first("reference", "reference", "reference"));
+}
+
 TEST(TableHeads, PartTablesBesideEachOther) {
     const workbook::Workbook workbook =
         workbook::read_csv("quantity,unit,u,quantity,unit,u\na,mm,0.1,b,mm,0.2\n", "b.csv", "b");
