@@ -390,11 +390,19 @@ std::optional<Heads> heads_of(const SheetView& sheet, const SheetView::Row& row)
     }
     std::optional<Column> before;
     for (const Cell* cell : row) {
-        const auto& [is_text, column] = sheet.head(*cell);
+        const auto& [is_text, headed] = sheet.head(*cell);
         if (!is_text) {
             continue;
         }
         const std::string held = sheet.words(*cell);
+        // "u(x_i) | c_i | u_i": behind u and a coefficient u_i is that of the result.
+        const auto is_of_result = [](const std::string& head) {
+            return head.starts_with("u_i") || head.starts_with("ui");
+        };
+        const bool is_contribution = headed == Column::u && heads.columns.contains(Column::u) && is_of_result(held) &&
+                                     heads.columns.contains(Column::sensitivity) && !names(Column::contribution) &&
+                                     !is_of_result(sheet.words(*cell_in(row, heads.columns.at(Column::u))));
+        const std::optional<Column> column = is_contribution ? Column::contribution : headed;
         if (!column) {
             before.reset();
             if (!is_unused_column(held)) {
@@ -404,6 +412,16 @@ std::optional<Heads> heads_of(const SheetView& sheet, const SheetView::Row& row)
         }
         if (*column == Column::unit) {
             owned.emplace_back(before, cell->address.column);
+        }
+        // "U_i | k_i | u_i": of two symbols in one row of heads the large one is of what is divided.
+        const Cell* of_u = *column == Column::u && held.starts_with('u') && heads.columns.contains(Column::u) &&
+                                   !heads.columns.contains(Column::stated)
+                               ? cell_in(row, heads.columns.at(Column::u))
+                               : nullptr;
+        if (of_u != nullptr && sheet.words(*of_u).starts_with('U')) {
+            heads.columns[Column::stated] = of_u->address.column;
+            heads.units[Column::stated] = heads.units[Column::u];
+            heads.columns.erase(Column::u);
         }
         if (heads.columns.emplace(*column, cell->address.column).second) {
             heads.units[*column] = unit_in_head(held);

@@ -150,6 +150,11 @@ TEST(ResultLines, SayCoverageInTheirNamesAndWords) {
         EXPECT_EQ(tables.budgets[0].unit, "mg") << line;
         EXPECT_EQ(told(tables.not_read), "") << line;
     }
+    // A k under a head that is not known is no U beside one under u.
+    const ForeignTables beside = tables_with(
+        "quantity,unit,reduced by,u,sensitivity\na,mg,2,0.03,1\nb,mg,1,0.04,1\nu_c,mg,,0.05\nExpanded,mg,2,0.100\n");
+    ASSERT_EQ(beside.budgets.size(), 1U) << told(beside.not_read);
+    EXPECT_EQ(beside.budgets[0].claims.U->value, 0.100);
     const ForeignTables two = tables_with(rows + "U (k = 2),,0.104,mg\nk,,2.08\n");
     EXPECT_NE(told(two.not_read).find("which one holds?"), std::string::npos) << told(two.not_read);
     const ForeignTables words = tables_with(rows + "U,,0.104,mg\nk,,two\n");
