@@ -43,7 +43,7 @@ bool belongs_to_word(std::string_view text) {
 }
 /// Where a number may begin: a digit, or a sign in front of one.
 bool may_begin_number(std::string_view text) {
-    for (const std::string_view sign : {"±", "+/-", "−", "-", "√", "∞", "+"}) {
+    for (const std::string_view sign : {"±", "+/-", "+-", "−", "-", "√", "∞", "+"}) {
         if (text.starts_with(sign)) {
             text.remove_prefix(sign.size());
             break;
@@ -92,7 +92,8 @@ std::optional<std::pair<Piece, std::size_t>> number_piece(std::string_view text,
     piece.value = read->number.value;
     const std::string_view taken = text.substr(0, end);
     piece.percent = taken.find('%') != std::string_view::npos;
-    piece.plus_minus = taken.find("±") != std::string_view::npos || taken.find("+/-") != std::string_view::npos;
+    piece.plus_minus = taken.find("±") != std::string_view::npos || taken.find("+/-") != std::string_view::npos ||
+                       taken.find("+-") != std::string_view::npos;
     piece.plus = taken.starts_with('+') && !piece.plus_minus;
     piece.unit = unit_behind(text.substr(end));
     std::string_view behind = text.substr(end);

@@ -867,16 +867,26 @@ void use_quotient_of_columns(AuditedRow& row) {
     }
 }
 
+namespace {
+
+/// The u that a row states, or, in a table without such a column, what it divides over its divisor.
+std::optional<StatedNumber> u_of_columns(const AuditedRow& row) {
+    return is_usable(row.u) ? row.u : quotient_of_columns(row);
+}
+
+}  // namespace
+
 void settle_contributions(AuditedBudget& budget) {
     constexpr double k_beyond_digits = 0.01;
     std::vector<AuditedRow*> other;
     std::size_t columns = 0;
     for (AuditedRow& row : budget.rows) {
-        if (!is_usable(row.sensitivity) || !is_usable(row.u) || !is_usable(row.contribution)) {
+        const std::optional<StatedNumber> u = u_of_columns(row);
+        if (!is_usable(row.sensitivity) || !u || !is_usable(row.contribution)) {
             continue;
         }
         ++columns;
-        StatedNumber own = product(*row.sensitivity, *row.u);
+        StatedNumber own = product(*row.sensitivity, *u);
         own.half_step += k_beyond_digits * std::abs(own.value);
         if (agree(own, *row.contribution)) {
             continue;
@@ -895,7 +905,7 @@ void settle_contributions(AuditedBudget& budget) {
         if (!is_error) {
             row->contribution.reset();
         } else if (row->used_u > 0.0) {
-            const StatedNumber implied = quotient(*row->contribution, *row->u);
+            const StatedNumber implied = quotient(*row->contribution, *u_of_columns(*row));
             row->used_sensitivity = std::copysign(implied.value, row->sensitivity->value);
             row->sensitivity_half_step = implied.half_step;
         }

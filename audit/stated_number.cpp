@@ -360,6 +360,9 @@ std::optional<LeadingNumber> take_number(Walk& walk, Percent percent, DecimalSig
     } else if (walk.peek() == U'+' && walk.peek(1) == U'/' && walk.peek(2) == U'-') {
         walk.go_to(walk.position() + 3);
         walk.skip_spaces();
+    } else if (walk.peek() == U'+' && walk.peek(1) == U'-') {
+        walk.go_to(walk.position() + 2);
+        walk.skip_spaces();
     }
     if (walk.take_if(U'-')) {
         sign = -1.0;

@@ -16,6 +16,7 @@
 #include "audit/rules/read_cells.h"
 #include "audit/rules/registry.h"
 #include "audit/rules/row_edits.h"
+#include "audit/rules/stated_outcome.h"
 #include "audit/rules/worksheet_view.h"
 #include "text/numbers.h"
 #include "text/small_letters.h"
@@ -175,6 +176,12 @@ std::optional<double> k_of_distribution(const AuditedRow& row) {
     return has_U || !row.distribution_k || *row.distribution_k < k_none ? std::nullopt : row.distribution_k;
 }
 
+/// Whether words of a row may say that its number is the distance of two limits.
+bool names_a_width(const AuditedRow& row) {
+    return says(words_of_row(row) + " " + row.shape_text,
+                {"±", "+/-", "span", "range", "width", "breite", "spann", "weite"});
+}
+
 void divisor_against_label(const AuditSubject& subject, FindingCollector& findings) {
     const std::optional<WorksheetView> view = worksheet_of(subject);
     for_each_row(subject, [&findings, &view](const RowAt& at) {
@@ -238,8 +245,10 @@ void divisor_against_label(const AuditSubject& subject, FindingCollector& findin
         const auto correct = [&at](const std::optional<double>& u, double factor) {
             return u && at.is.used_u > 0.0 ? change_u(at, *u) : scale_u(at.row, factor);
         };
-        if (k && divisor == 1.0) {
-            // The number may be a standard uncertainty already, and k that of the certificate that it comes from.
+        // The number may be a standard uncertainty already, and k that of the certificate that it comes from; or the whole
+        // width of ± U, by the words of the row.
+        const bool is_whole_width = k && is_about(divisor, 2.0 * *k, 2e-4) && names_a_width(at.is);
+        if (k && (divisor == 1.0 || is_whole_width)) {
             finding.expected = say_number(text::significant(*k, 6));
             findings.add(std::move(finding), FindingSeverity::minor);
             return;
@@ -465,6 +474,21 @@ bool is_deviation(const WorksheetView& view, const SheetFormula& formula, const 
             says(label, {"standard deviation", "standardabweichung", "stdev", "std dev", " s of "}));
 }
 
+/// Whether words speak of pieces and have a number twice, as those of a row that has n readings of n pieces together: "stack of 10
+/// sheets, 10 readings".
+bool counts_pieces(const std::string& words, const std::string& number) {
+    constexpr std::string_view k_of_numbers = "0123456789.,";
+    std::size_t times = 0;
+    for (std::size_t at = words.find(number); at != std::string::npos; at = words.find(number, at + number.size())) {
+        const std::size_t end = at + number.size();
+        const bool begins = at == 0 || k_of_numbers.find(words[at - 1]) == std::string_view::npos;
+        const bool ends = end == words.size() || words[end] < '0' || words[end] > '9';
+        times += begins && ends ? 1U : 0U;
+    }
+    return times > 1 && says(words, {"stack", "sheet", "layer", "swing", "period", "oscillation", "turn", "revolution",
+                                     "piece", "stapel", "blatt", "blätter", "lage", "schwing", "umdreh", "stück"});
+}
+
 /// W04: s/n in place of s/√n, of a row that says how many readings there are.
 void divided_by_n(const WorksheetView& view, const RowAt& at, FindingCollector& findings) {
     const SheetFormula* maker = at.is.u && !at.is.stated ? view.maker_of(at.is.u->place) : nullptr;
@@ -492,7 +516,100 @@ void divided_by_n(const WorksheetView& view, const RowAt& at, FindingCollector& 
     finding.evidence = {say_number(text_of(view, *maker)), equals("n", text::shortest(n))};
     finding.expected = say("√{n:number}", text::shortest(n));
     finding.actual = say_number(text::shortest(n));
+    if (counts_pieces(words_of_row(at.is), text::shortest(n))) {  // s of a stack is n times that of a sheet
+        findings.add(std::move(finding), FindingSeverity::minor);
+        return;
+    }
     finding.correct = scale_u(at.row, std::sqrt(n));
+    findings.add(std::move(finding));
+}
+
+/// What COUNT gives of an area, or COUNTA, which counts words as well; nothing of a large one.
+std::optional<std::size_t> counted_in(const WorksheetView& view, const workbook::Area& area, bool with_words) {
+    constexpr std::uint64_t k_most = 1000;
+    const workbook::CellRange& range = area.range;
+    const std::uint64_t rows = range.last.row - range.first.row + 1U,
+                        columns = range.last.column - range.first.column + 1U;
+    if (rows * columns > k_most) {
+        return std::nullopt;
+    }
+    std::size_t numbers = 0;
+    for (std::uint32_t row = range.first.row; row <= range.last.row; ++row) {
+        for (std::uint32_t column = range.first.column; column <= range.last.column; ++column) {
+            const CellValue value = view.value({.sheet = area.sheet, .address = {.row = row, .column = column}});
+            const bool is_counted =
+                value.kind == CellKind::number || (with_words && value.kind == CellKind::text && !value.text.empty());
+            numbers += is_counted ? 1U : 0U;
+        }
+    }
+    return numbers;
+}
+
+/// Areas of several cells that a formula reads, each once.
+std::vector<workbook::Area> ranges_read(const WorksheetView& view, const CellPlace& cell) {
+    std::vector<workbook::Area> ranges;
+    for (const workbook::Area& area : view.areas_read(cell)) {
+        const bool is_known = std::any_of(ranges.begin(), ranges.end(), [&area](const workbook::Area& other) {
+            return other.sheet == area.sheet && other.range == area.range;
+        });
+        if (!is_known && !(area.range.first == area.range.last)) {
+            ranges.push_back(area);
+        }
+    }
+    return ranges;
+}
+
+/// W04 of a row whose u is s/√n in one formula: n counts a range that reaches beyond the readings, as over their mean and s below them.
+void counted_beyond_readings(const WorksheetView& view, const RowAt& at, FindingCollector& findings) {
+    const SheetFormula* maker = at.is.u && !at.is.stated ? view.maker_of(at.is.u->place) : nullptr;
+    if (maker == nullptr || !(at.is.used_u > 0.0)) {
+        return;
+    }
+    const FormulaNode& quotient = maker->formula.nodes[maker->formula.root()];
+    if (quotient.kind != FormulaNodeKind::divide || quotient.children != 2) {
+        return;
+    }
+    const auto operands = maker->formula.children_of(quotient);
+    const FormulaNode &spread = maker->formula.nodes[operands[0]], &root = maker->formula.nodes[operands[1]];
+    if (!is_deviation(view, *maker, spread) || !is_call(root, {"SQRT"}) || root.children != 1) {
+        return;
+    }
+    const FormulaNode& count = maker->formula.nodes[maker->formula.children_of(root)[0]];
+    const bool with_words = is_call(count, {"COUNTA"});
+    if (!with_words && !is_call(count, {"COUNT"})) {
+        return;
+    }
+    const std::optional<CellPlace> cell = view.cell_of(*maker, spread);
+    std::vector<workbook::Area> of_formula = ranges_read(view, maker->cell),
+                                of_spread = cell ? ranges_read(view, *cell) : std::vector<workbook::Area>();
+    if (!cell && of_formula.size() == 2) {
+        of_spread.push_back(of_formula.front());
+        of_formula.erase(of_formula.begin());
+    }
+    if (of_formula.size() != 1 || of_spread.size() != 1) {
+        return;
+    }
+    const workbook::Area &counted = of_formula.front(), &readings = of_spread.front();
+    const workbook::CellRange &outer = counted.range, &inner = readings.range;
+    const bool reaches_beyond = counted.sheet == readings.sheet && outer.first.row <= inner.first.row &&
+                                outer.first.column <= inner.first.column && outer.last.row >= inner.last.row &&
+                                outer.last.column >= inner.last.column;
+    const std::optional<std::size_t> n = counted_in(view, counted, with_words),
+                                     of_readings = counted_in(view, readings, false);
+    if (!reaches_beyond || !n || !of_readings || *of_readings < 2 || *n <= *of_readings) {
+        return;
+    }
+    const auto used = static_cast<double>(*n), right = static_cast<double>(*of_readings);
+    const ReadingsRange range{
+        .numbers = *of_readings, .cells = *of_readings, .runs = {}, .area = workbook::a1_text(inner)};
+    AuditFinding finding =
+        finding_at(at, at.is.u->place,
+                   say("√{n:number} divides a standard deviation of {area}, which has {numbers} in {cells}",
+                       text::shortest(used), range.area, numbers_in_words(range), cells_in_words(range)));
+    finding.expected = say("√{n:number}", text::shortest(right));
+    finding.actual = say("√{n:number}", text::shortest(used));
+    finding.evidence = {say_number(text_of(view, *maker))};
+    finding.correct = scale_u(at.row, std::sqrt(used / right));
     findings.add(std::move(finding));
 }
 
@@ -551,6 +668,7 @@ void count_of_readings(const AuditSubject& subject, FindingCollector& findings) 
     for_each_row(subject, [&](const RowAt& at) {
         deviation_by_n(*view, at, findings);
         divided_by_n(*view, at, findings);
+        counted_beyond_readings(*view, at, findings);
     });
     tell_limit(cells, findings);
 }
@@ -1234,7 +1352,8 @@ std::vector<Rule> worksheet_rules() {
          .detection =
              "the divisor is not that of the named distribution, beyond its printed digits: √3, √6, √2, k; √n of "
              "readings is that of their mean; not where divisor 1 stands beside what was divided so already; beside a "
-             "stated k, \"normal (k = 2)\", the divisor 1 is asked about",
+             "stated k, \"normal (k = 2)\", the divisor 1 is asked about, and 2 k where words may speak of a whole "
+             "width",
          .correction =
              "Divide by the divisor of the distribution, or name the distribution that the divisor belongs to.",
          .question = "Which of the two is meant, the distribution or the divisor?",
@@ -1254,7 +1373,8 @@ std::vector<Rule> worksheet_rules() {
          .clause = {.text = "JCGM 100:2008, 4.2.3", .verified = true},
          .needs = {Need::workbook},
          .detection = "text among readings; n of the divisor is not the number of readings in the range; STDEV.P of "
-                      "readings about their own mean, unless √(n − 1) divides it; s/n of n readings",
+                      "readings about their own mean, unless √(n − 1) divides it; s/n of n readings, asked where these "
+                      "are of n pieces together",
          .correction = "Correct the reading, and divide by the root of the number of readings that count.",
          .question = "How many readings were taken, and which of them count?",
          .examine = count_of_readings},

@@ -98,6 +98,11 @@ constexpr std::array k_column_words = {
     Word{U"div", divisor},
     Word{U"divisork", divisor},
     Word{U"kdivisor", divisor},
+    Word{U"ki", divisor},
+    Word{U"kordivisor", divisor},
+    Word{U"divisorork", divisor},
+    Word{U"koderteiler", divisor},
+    Word{U"teileroderk", divisor},
     Word{U"divideby", divisor},
     Word{U"factor", divisor},
     Word{U"teiler", divisor},
@@ -497,12 +502,18 @@ std::string_view number_of_k(std::string_view text, std::size_t at) {
                                             "coverage factor",
                                             "Coverage factor",
                                             "Erweiterungsfaktor",
-                                            "erweiterungsfaktor"};
+                                            "erweiterungsfaktor",
+                                            "COVERAGE FACTOR",
+                                            "ERWEITERUNGSFAKTOR",
+                                            "K"};
     for (const std::string_view word : k_words) {
         if (!text.substr(at).starts_with(word)) {
             continue;
         }
         std::string_view behind = text.substr(at + word.size());
+        if (word == "K" && !trimmed(behind).starts_with('=')) {
+            continue;  // "EXPANDED UNCERTAINTY (K = 2)"; else it is a kelvin
+        }
         if (!behind.empty() && (is_letter(behind.front()) || is_of_number(behind.front()) || behind.front() == '_')) {
             continue;
         }
@@ -691,9 +702,31 @@ bool is_relative_symbol(std::string_view head) {
     return is_one_of(symbol, {"w", "w_i", "wi", "w(xi)", "w(x_i)"});
 }
 
+bool is_of_relative_uncertainty(std::string_view head) {
+    if (is_relative_symbol(head)) {
+        return true;
+    }
+    for (const std::string_view text :
+         {trimmed(head), trimmed(without_unit(trimmed(head))), trimmed(without_brackets(head))}) {
+        std::string lower = text::in_small_letters(std::string(text));
+        std::erase_if(lower, [](char c) { return c == ' ' || c == '_' || c == '|' || c == ',' || c == '.'; });
+        if (is_one_of(lower, {"urel", "ur", "rsu", "relu", "u(x)/x", "u(xi)/xi", "u(y)/y", "u/x", "ui/xi", "u(q)/q"})) {
+            return true;
+        }
+    }
+    const std::string whole = text::in_small_letters(std::string(head));
+    const bool is_relative = whole.find("relativ") != std::string::npos || whole.starts_with("rel. ") ||
+                             whole.starts_with("rel ") || whole.starts_with("relat. ");
+    return is_relative && (whole.find("uncert") != std::string::npos || whole.find("unc.") != std::string::npos ||
+                           whole.find("unsich") != std::string::npos || whole.find(" u") != std::string::npos);
+}
+
 std::optional<Column> relative_column_of(std::string_view head, std::string_view unit_of_numbers) {
     head = trimmed(head);
     const std::string of_head = unit_in_head(std::string(head));
+    if (!of_head.empty() && head.ends_with(" " + of_head) && !head.ends_with("/ " + of_head)) {
+        head = trimmed(head.substr(0, head.size() - of_head.size()));  // "Relative standard uncertainty %"
+    }
     const std::optional<gum::Unit> unit = known_unit(of_head.empty() ? std::string(unit_of_numbers) : of_head);
     if (!unit || !unit->dimension().is_one()) {
         return std::nullopt;
@@ -704,7 +737,9 @@ std::optional<Column> relative_column_of(std::string_view head, std::string_view
             return column_of(head.substr(word.size()));
         }
     }
-    return is_relative_symbol(head) ? std::optional(Column::u) : std::nullopt;
+    // "u_rel / %", "RSU (%)"; "U_rel" is an expanded one.
+    const bool is_symbol_of_u = (head.starts_with('u') || head.starts_with("RSU")) && is_of_relative_uncertainty(head);
+    return is_relative_symbol(head) || is_symbol_of_u ? std::optional(Column::u) : std::nullopt;
 }
 
 std::optional<Column> column_of(std::string_view head) {
@@ -775,7 +810,9 @@ std::optional<Column> column_of(std::string_view head) {
             continue;
         }
         const std::string_view symbol = text.substr(at + 1);
-        const std::optional<Column> column = meaning_of_head(trimmed(text.substr(0, at)));
+        std::string_view before = trimmed(text.substr(0, at));
+        before = before.ends_with(',') ? trimmed(before.substr(0, before.size() - 1)) : before;  // "u, mm"
+        const std::optional<Column> column = meaning_of_head(before);
         if (column == Column::stated && symbol.front() == 'u') {  // "Uncertainty u(x)"
             const std::optional<Column> of_symbol = meaning_of_head(symbol);
             return of_symbol ? of_symbol : Column::u;
@@ -880,10 +917,11 @@ std::optional<Statement> uncertainty_in_words(std::string_view name, std::string
             return std::nullopt;
         }
     }
+    const CoverageText said = coverage_in(coverage);
+    is_noun = is_noun || (is_total && !said.k.empty());  // "Total (k = 1)": no contribution is called so
     if (!is_noun || (is_tail && !has_tail) || (is_standard && is_expanded)) {
         return std::nullopt;
     }
-    const CoverageText said = coverage_in(coverage);
     if (is_expanded || (!is_standard && is_of_expanded(said))) {
         return Statement::U;
     }
@@ -997,9 +1035,11 @@ std::optional<NamedStatement> statement_named(std::string_view name, bool may_ha
     if (name.size() > k_longest) {
         return std::nullopt;
     }
-    // "Expanded uncertainty / dB, k = 2": the unit stands behind the name.
-    for (const std::string_view sign : {" / ", " in "}) {
-        const std::size_t at = may_have_unit ? name.find(sign) : std::string_view::npos;
+    // "Expanded uncertainty / dB, k = 2", "U mm (k = 2)": the unit stands behind the name.
+    for (const std::string_view sign : {" / ", " in ", " "}) {
+        const std::string of_name = sign == " " && may_have_unit ? unit_in_head(std::string(name)) : std::string();
+        const bool is_sought = may_have_unit && (sign != " " || !of_name.empty());
+        const std::size_t at = is_sought ? name.find(std::string(sign) + of_name) : std::string_view::npos;
         if (at == std::string_view::npos || at == 0) {
             continue;
         }

@@ -37,6 +37,8 @@ inline constexpr int k_columns = 13;
 [[nodiscard]] std::optional<Column> relative_column_of(std::string_view head, std::string_view unit_of_numbers = {});
 /// Whether a head is the symbol of a relative u of ISO 376, "w", "w_i / %". Weights have it as well.
 [[nodiscard]] bool is_relative_symbol(std::string_view head);
+/// Whether a head is one of relative uncertainties, whatever unit it states: "u(x)/x", "RSU (%)", "Relative standard uncertainty", "u_rel".
+[[nodiscard]] bool is_of_relative_uncertainty(std::string_view head);
 
 /// A column of the uncertainties of one type: "u (Type A)", "Standard uncertainty (B) %", "Type A (%)".
 struct TypedHead {

@@ -55,8 +55,14 @@ public:
         }
         read.source = words(Column::source);
         read.comment = words(Column::comment);
-        if (const Cell* cell = at(Column::quantity)) {
-            read.place = sheet_.place(cell->address);
+        const Cell* named = at(Column::quantity);
+        // Where the first column has groups, each of them once, what a row is called stands beside it.
+        for (const std::string* const beside : {&read.description, &read.source}) {
+            read.quantity = read.quantity.empty() ? *beside : read.quantity;
+        }
+        read.description = read.quantity == read.description ? "" : read.description;
+        if (named != nullptr || !row_.empty()) {
+            read.place = sheet_.place((named != nullptr ? named : row_.front())->address);
         }
         read.estimate = number(Column::estimate, units.estimate);
         read.stated = number(Column::stated, units.stated);
@@ -66,6 +72,9 @@ public:
         read.sensitivity = number(Column::sensitivity, units.sensitivity);
         read.contribution = number(Column::contribution, units.contribution);
         read.nu = number(Column::nu, none);
+        if (units.u.empty() && is_in_unit_of_contribution(read)) {
+            units.u = units.contribution;
+        }
         // What has no unit of its own has that of the row; of a row without one, that of what u was divided from.
         const std::string of_row = words(Column::unit);
         const std::string& of_stated = units.stated.empty() ? of_row : units.stated;
@@ -115,6 +124,15 @@ public:
     [[nodiscard]] bool lost_amount() const { return lost_amount_; }
 
 private:
+    /// Of "100,00002 | mm | 15 | 1 | | 15" below "Estimate | Unit | u | c | Unit | Contribution / nm": the first column of units is that of
+    /// the estimates, and u that of its contribution.
+    [[nodiscard]] bool is_in_unit_of_contribution(const AuditedRow& row) const {
+        const auto has_units = [this](Column column) { return heads_.unit_columns.contains(column); };
+        const bool are_of_estimate = has_units(Column::estimate) && !has_units(Column::u) && !has_units(Column::stated);
+        const bool is_plain = !row.sensitivity || std::abs(row.sensitivity->value) == 1.0;
+        return are_of_estimate && is_plain && !row.stated && row.u && row.contribution &&
+               std::abs(row.u->value) == std::abs(row.contribution->value);
+    }
     [[nodiscard]] const Cell* at(Column column) const {
         const auto position = heads_.columns.find(column);
         return position == heads_.columns.end() ? nullptr : cell_in(row_, position->second);
@@ -966,6 +984,33 @@ private:
                 row->place, text::in_quotes(row->quantity), text::in_quotes(budget_.unread_columns.front())));
         return true;
     }
+    /// Whether a column of relative uncertainties stands beside u, as of products in chemistry, and nothing shows that u is what was added: the
+    /// rows state no unit that they share, and what is stated does not follow from them.
+    [[nodiscard]] bool needs_relative_column() {
+        const auto relative = std::find_if(budget_.unread_columns.begin(), budget_.unread_columns.end(),
+                                           [](const std::string& head) { return is_of_relative_uncertainty(head); });
+        const bool has_coefficients =
+            heads_->columns.contains(Column::sensitivity) || heads_->columns.contains(Column::contribution);
+        if (relative == budget_.unread_columns.end() || has_coefficients || budget_.rows.empty()) {
+            return false;
+        }
+        const std::string& unit = budget_.rows.front().unit;
+        const bool have_one_unit = !unit.empty() && unit != "1" &&
+                                   std::all_of(budget_.rows.begin(), budget_.rows.end(),
+                                               [&unit](const AuditedRow& row) { return row.unit == unit; });
+        const ClaimCheck check = check_claims(budget_);
+        const bool is_stated = budget_.claims.u_c || budget_.claims.U;
+        const bool follows = is_stated && check.allowed && !check.u_c_outside && !check.U_outside;
+        if (have_one_unit || (follows && !budget_.unit.empty())) {
+            return false;
+        }
+        tables_.not_read.push_back(
+            say("{table}: the table is not looked at; the column {head} has relative uncertainties and is not read, "
+                "and u of the rows has no unit that all of them state, or does not give what is stated; is the result "
+                "made up of that column?",
+                budget_.place, text::in_quotes(*relative)));
+        return true;
+    }
     /// Whether nothing says how rows make up a result: they have no coefficients and no contributions, nothing is stated, and their units
     /// cannot be added, or are not there beside a column that is not read. A sum of their u is a number of nobody.
     [[nodiscard]] bool has_no_sum() {
@@ -1185,7 +1230,7 @@ private:
                 clear();
                 return;
             }
-            if (needs_unread_column() || has_no_sum()) {
+            if (needs_unread_column() || needs_relative_column() || has_no_sum()) {
                 tables_.has_unusable = true;
                 clear();
                 return;

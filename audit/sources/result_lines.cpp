@@ -757,7 +757,15 @@ std::optional<TakenStatement> take_first(const SheetView& sheet, const SheetView
     }
     const NumbersUnderHeads numbers =
         heads != nullptr && is_of_coverage(statement) ? numbers_under(sheet, *heads, row) : NumbersUnderHeads{};
-    const bool is_of_heads = numbers.size() > 1 && !is_number_with_one(sheet, row, *line);
+    // "Expanded | 2 | 0.032": what stands under a head that nobody knows may be a k, and is no U beside one under u.
+    const bool has_unknown =
+        heads != nullptr && std::any_of(heads->unknown.begin(), heads->unknown.end(), [&](const Cell* head) {
+            const Cell* cell = cell_in(row, head->address.column);
+            return cell != nullptr && sheet.number_with_unit(*cell).has_value();
+        });
+    const bool has_amount = numbers.contains(Column::u) || numbers.contains(Column::contribution);
+    const bool is_of_heads =
+        (numbers.size() > 1 || (has_amount && has_unknown)) && !is_number_with_one(sheet, row, *line);
     const Cell* by_head = is_of_heads ? number_by_head(statement, numbers) : nullptr;
     std::optional<StatedResult> result;
     const Cell* at = by_head;

@@ -126,6 +126,30 @@ void take_first_contribution_for_quantity(const SheetView& sheet, const SheetVie
     }
 }
 
+/// Whether the words below a head are those of groups of rows, which a column beside it names one by one: "Reference | Certificate",
+/// "Reference | Drift". They stand again, or are left out, and the others are more different words.
+bool heads_groups(const SheetView& sheet, const SheetView::Row& row, const Cell& head, std::uint32_t beside) {
+    constexpr std::size_t k_most = 200, k_least_repeated = 2;
+    std::set<std::string> groups, names;
+    std::size_t repeated = 0, looked = 0;
+    std::uint32_t last = row.back()->address.row;
+    for (auto at = sheet.rows().upper_bound(last); at != sheet.rows().end() && looked < k_most; ++at, ++looked) {
+        if (at->first > last + 2) {
+            break;  // two empty lines
+        }
+        last = at->first;
+        const Cell *group = cell_in(at->second, head.address.column), *name = cell_in(at->second, beside);
+        const std::string of_group = group == nullptr ? "" : sheet.words(*group),
+                          of_name = name == nullptr ? "" : sheet.words(*name);
+        const bool is_new = !of_group.empty() && groups.insert(of_group).second;
+        if (!of_name.empty()) {
+            names.insert(of_name);
+            repeated += is_new ? 0U : 1U;
+        }
+    }
+    return repeated >= k_least_repeated && names.size() > groups.size();
+}
+
 /// What is taken for a head where no other one is: relative uncertainties in place of u, and the first column of the table as
 /// its quantities, where u or contributions and what they come from are headed beside it.
 void take_relative_and_first(const SheetView& sheet, const SheetView::Row& row, Heads& heads) {
@@ -179,6 +203,10 @@ void take_relative_and_first(const SheetView& sheet, const SheetView::Row& row, 
             return;
         }
         if (is_budget && std::find(heads.unknown.begin(), heads.unknown.end(), cell) != heads.unknown.end()) {
+            if (source != heads.columns.end() && heads_groups(sheet, row, *cell, source->second)) {
+                std::erase(heads.unknown, cell);
+                continue;
+            }
             take(Column::quantity, cell, "");
             return;
         }
@@ -362,11 +390,19 @@ std::optional<Heads> heads_of(const SheetView& sheet, const SheetView::Row& row)
     }
     std::optional<Column> before;
     for (const Cell* cell : row) {
-        const auto& [is_text, column] = sheet.head(*cell);
+        const auto& [is_text, headed] = sheet.head(*cell);
         if (!is_text) {
             continue;
         }
         const std::string held = sheet.words(*cell);
+        // "u(x_i) | c_i | u_i": behind u and a coefficient u_i is that of the result.
+        const auto is_of_result = [](const std::string& head) {
+            return head.starts_with("u_i") || head.starts_with("ui");
+        };
+        const bool is_contribution = headed == Column::u && heads.columns.contains(Column::u) && is_of_result(held) &&
+                                     heads.columns.contains(Column::sensitivity) && !names(Column::contribution) &&
+                                     !is_of_result(sheet.words(*cell_in(row, heads.columns.at(Column::u))));
+        const std::optional<Column> column = is_contribution ? Column::contribution : headed;
         if (!column) {
             before.reset();
             if (!is_unused_column(held)) {
@@ -376,6 +412,16 @@ std::optional<Heads> heads_of(const SheetView& sheet, const SheetView::Row& row)
         }
         if (*column == Column::unit) {
             owned.emplace_back(before, cell->address.column);
+        }
+        // "U_i | k_i | u_i": of two symbols in one row of heads the large one is of what is divided.
+        const Cell* of_u = *column == Column::u && held.starts_with('u') && heads.columns.contains(Column::u) &&
+                                   !heads.columns.contains(Column::stated)
+                               ? cell_in(row, heads.columns.at(Column::u))
+                               : nullptr;
+        if (of_u != nullptr && sheet.words(*of_u).starts_with('U')) {
+            heads.columns[Column::stated] = of_u->address.column;
+            heads.units[Column::stated] = heads.units[Column::u];
+            heads.columns.erase(Column::u);
         }
         if (heads.columns.emplace(*column, cell->address.column).second) {
             heads.units[*column] = unit_in_head(held);

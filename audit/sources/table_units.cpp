@@ -162,7 +162,11 @@ std::optional<double> factor_of_stated(const gum::Unit& c, const gum::Unit& row,
 /// The factor of a coefficient without a unit.
 /// \param of_number  where it is a number of the unit of the contribution per the unit of the row
 double factor_of_bare(const AuditedRow& row, const std::string& result_unit, double of_number) {
-    const std::optional<double> of_quantity = factor_between(row.unit, result_unit);
+    std::optional<double> of_quantity = factor_between(row.unit, result_unit);
+    if (!of_quantity && is_unit_of_part(row.unit)) {
+        of_quantity =
+            size_of_unit(*known_unit(row.unit));  // 2.3 mg of a row in percent, as it is multiplied with 0.005
+    }
     const double c = row.sensitivity ? std::abs(row.sensitivity->value) : 1.0;
     const double u = u_of(row);
     if (!of_quantity || row.unit.empty() || *of_quantity == of_number || !row.contribution || !(c * u > 0.0)) {
@@ -247,9 +251,43 @@ namespace {
 /// Units that this program does not know and that stand in brackets, as scales of hardness and turbidity: "HRC", "NTU". Other words in
 /// capitals are none.
 bool is_named_in_capitals(std::string_view inside) {
-    constexpr std::string_view k_units[] = {"HRA",  "HRB", "HRC", "HRD", "HV",  "HB", "HBW", "HK",  "HL", "HLD",
-                                            "IRHD", "NTU", "FNU", "FTU", "FAU", "GU", "pH",  "mpH", "BU", "EBC"};
+    constexpr std::string_view k_units[] = {"HRA", "HRB", "HRC", "HRD", "HV",  "HB", "HBW", "HK",  "HL", "HLD", "IRHD",
+                                            "PSI", "NTU", "FNU", "FTU", "FAU", "GU", "pH",  "mpH", "BU", "EBC"};
     return std::find(std::begin(k_units), std::end(k_units), inside) != std::end(k_units);
+}
+
+/// Whether a word that nothing sets apart is a unit and no symbol: "µm" and "mV", not "uA", "cu" or "K".
+bool is_unit_of_its_own(std::string_view word) {
+    constexpr std::string_view k_units[] = {
+        "mm", "µm", "μm",  "um",  "nm",  "pm",  "cm",  "km",   "kg",   "mg",   "µg",    "μg",  "ng",  "mL",  "ml",
+        "µL", "μL", "µl",  "μl",  "ms",  "µs",  "μs",  "ns",   "ps",   "mV",   "µV",    "μV",  "nV",  "kV",  "mA",
+        "µA", "μA", "nA",  "kA",  "mK",  "µK",  "μK",  "°C",   "Pa",   "hPa",  "kPa",   "MPa", "mPa", "bar", "mbar",
+        "kN", "mN", "Hz",  "kHz", "MHz", "GHz", "mHz", "mW",   "kW",   "µW",   "μW",    "mJ",  "kJ",  "mΩ",  "µΩ",
+        "μΩ", "kΩ", "MΩ",  "GΩ",  "Ω",   "ohm", "pF",  "nF",   "µF",   "μF",   "mH",    "µH",  "μH",  "mT",  "µT",
+        "μT", "dB", "ppm", "N·m", "Nm",  "°",   "″",   "mrad", "µrad", "μrad", "arcsec"};
+    if (std::find(std::begin(k_units), std::end(k_units), word) != std::end(k_units)) {
+        return true;
+    }
+    // "µV/V", "mg/L", "nm/K": of units both.
+    const std::size_t slash = word.find('/');
+    return slash != std::string_view::npos && is_unit_of_its_own(word.substr(0, slash)) &&
+           word.find('/', slash + 1) == std::string_view::npos && known_unit(std::string(word.substr(slash + 1))) &&
+           known_unit(std::string(word));
+}
+
+/// "u mm", "Beitrag µV": a unit behind a blank, where no number stands before it ("U at 10 mm").
+std::string unit_behind_blank(std::string_view head) {
+    const std::size_t blank = head.rfind(' ');
+    if (blank == std::string_view::npos || blank == 0) {
+        return "";
+    }
+    const std::string_view word = head.substr(blank + 1), before = head.substr(0, blank);
+    const std::size_t begin = before.rfind(' ') + 1;
+    // A percent sign alone may be that of a share.
+    const bool is_part = word == "%" && text::in_small_letters(std::string(before)).find("rel") != std::string::npos;
+    return (is_part || is_unit_of_its_own(word)) && before.find_first_of("0123456789", begin) == std::string_view::npos
+               ? std::string(word)
+               : "";
 }
 
 std::string text_of_unit_in_head(const std::string& head) {
@@ -276,17 +314,27 @@ std::string text_of_unit_in_head(const std::string& head) {
     }
     constexpr std::string_view k_plus_minus = "± ";  // "Value ± kPa"
     if (const std::size_t sign = head.find(k_plus_minus); sign != std::string::npos && sign > 0) {
-        return std::string(bare_unit(std::string_view(head).substr(sign + k_plus_minus.size())));
+        std::string_view behind = std::string_view(head).substr(sign + k_plus_minus.size());
+        if (behind.ends_with(')') && behind.find('(') == std::string_view::npos) {
+            behind.remove_suffix(1);  // "Limits (± mm)"
+        }
+        const bool is_number = !behind.empty() && behind.find_first_not_of("0123456789., ") == std::string_view::npos;
+        return is_number ? "" : std::string(bare_unit(behind));
     }
     const std::size_t round = head.rfind(" (");
     if (round != std::string::npos && head.ends_with(')')) {
-        const std::string inside = head.substr(round + 2, head.size() - round - 3);
+        std::string inside = head.substr(round + 2, head.size() - round - 3);
+        if (const std::string_view both = "±"; inside.starts_with(both)) {  // "Specification (±mm)"
+            inside = std::string(bare_unit(std::string_view(inside).substr(both.size())));
+        }
         // "(y)", "(k = 2)" and "(A)" say what the head is of.
         constexpr std::string_view k_units_of_one_letter = "mgKVNJW%";
         const bool one_letter = inside.size() == 1 && k_units_of_one_letter.find(inside) == std::string_view::npos;
-        return !one_letter && (known_unit(inside) || is_named_in_capitals(inside)) ? inside : "";
+        return !one_letter && (known_unit(inside) || is_named_in_capitals(inside))
+                   ? inside
+                   : unit_behind_blank(std::string_view(head).substr(0, round));  // "U mm (k = 2)"
     }
-    return "";
+    return unit_behind_blank(head);
 }
 
 }  // namespace

@@ -35,7 +35,10 @@ TEST(PiecesOf, ASumHaveItsPlusSigns) {
         EXPECT_TRUE(pieces.back().plus) << text;
         EXPECT_DOUBLE_EQ(pieces.back().value, 0.5) << text;
     }
-    EXPECT_FALSE(pieces_of("+/- 0.5", DecimalSign::each).back().plus);
+    for (const char* const both : {"+/- 0.5", "+-0.5", "+- 0.5"}) {
+        EXPECT_FALSE(pieces_of(both, DecimalSign::each).back().plus) << both;
+        EXPECT_TRUE(pieces_of(both, DecimalSign::each).back().plus_minus) << both;
+    }
 }
 
 TEST(InUnitOfRow, ConvertsAndLeavesOtherKinds) {

@@ -48,6 +48,7 @@ TEST(RowFacts, ReadLimitsThatDiffer) {
         EXPECT_DOUBLE_EQ(*row.upper_limit, 0.3) << text;
     }
     EXPECT_FALSE(row_saying("+/- 0.3").lower_limit);
+    EXPECT_FALSE(row_saying("+-0.3").lower_limit);
     EXPECT_FALSE(row_saying("0.3/0.1").lower_limit);
 }
 

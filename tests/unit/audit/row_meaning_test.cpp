@@ -305,6 +305,20 @@ TEST(SettleContributions, keeps_what_the_sum_was_made_of) {
     settle_contributions(budget);
     EXPECT_DOUBLE_EQ(budget.rows[0].used_sensitivity, 2.0);
     EXPECT_DOUBLE_EQ(budget.rows[1].used_sensitivity, 9.0) << "one row is an error";
+    // So it is in a table without a column of u, where what is divided says as much.
+    const auto divided = [](double a, double c, double contribution) {
+        AuditedRow row;
+        row.stated = exact_number(a, "");
+        row.divisor = exact_number(2.0, "");
+        row.sensitivity = exact_number(c, "");
+        row.contribution = exact_number(contribution, "");
+        complete_row(row);
+        return row;
+    };
+    budget.rows = {divided(2.0, 2.0, 2.0), divided(2.0, 3.0, 0.3), divided(4.0, 1.0, 2.0)};
+    settle_contributions(budget);
+    EXPECT_DOUBLE_EQ(budget.rows[0].used_sensitivity, 2.0);
+    EXPECT_DOUBLE_EQ(budget.rows[1].used_sensitivity, 0.3) << "one row is an error";
     // A column of shares is none of contributions.
     budget.rows = {with(1.0, 2.0, 0.40), with(1.0, 3.0, 0.60), with(2.0, 1.0, 0.10)};
     settle_contributions(budget);

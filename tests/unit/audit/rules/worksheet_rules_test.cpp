@@ -76,6 +76,15 @@ TEST(WorksheetRules, W02SeesTheKOfADistribution) {
         words.origin_value = 1.10;
         words.certificate_k = k;
         EXPECT_TRUE(findings_of("W02", test::subject_of(words)).empty());
+        // Beside 2 k it is asked where the words may speak of the whole width; else U was divided twice.
+        for (const char* const of_width : {"span of the level", "U (±)", "Breite"}) {
+            AuditedRow width = row_of(k, 2.0 * k);
+            width.quantity = of_width;
+            const std::vector<AuditFinding> findings = findings_of("W02", test::subject_of(width));
+            ASSERT_EQ(findings.size(), 1U) << of_width;
+            EXPECT_FALSE(findings[0].effect) << of_width;
+        }
+        EXPECT_TRUE(findings_of("W02", test::subject_of(row_of(k, 2.0 * k))).at(0).effect);
     }
 }
 

@@ -135,6 +135,14 @@ TEST(NamedStatement, HasWhatItsNameSaysBesideIt) {
     EXPECT_FALSE(named_statement("Messergebnis")->may_be_quantity);
     EXPECT_FALSE(named_statement("U (k = 2)")->may_be_quantity);
     EXPECT_EQ(named_statement("Kombinierte Standardunsicherheit")->statement, Statement::u_c);
+    EXPECT_EQ(coverage_in("EXPANDED UNCERTAINTY (K = 2)").k, "2)");
+    EXPECT_EQ(coverage_in("U (K=2.13)").k, "2.13)");
+    EXPECT_TRUE(coverage_in("T / K 2").k.empty());
+    EXPECT_EQ(named_statement("Total (k = 1)")->statement, Statement::u_c);
+    EXPECT_EQ(named_statement("Total (k = 2)")->statement, Statement::U);
+    for (const char* const row : {"Total", "Total (dry)", "Temperature total (k = 1)", "Total pressure (k = 2)"}) {
+        EXPECT_FALSE(named_statement(row)) << row;
+    }
     EXPECT_FALSE(named_statement("calibration of the standard (k = 2)"));
     EXPECT_FALSE(named_statement("uncertainty of the weighing, 95 %"));
 }
@@ -178,11 +186,12 @@ TEST(CertificateIn, IsNamedByItsNumber) {
 }
 
 TEST(RelativeColumnOf, KnowsTheSymbolsOfIso376) {
-    for (const char* const head : {"w / %", "w (%)", "w_i [ppm]", "w(x_i) / %", "Relative standard uncertainty (%)"}) {
+    for (const char* const head : {"w / %", "w (%)", "w_i [ppm]", "w(x_i) / %", "Relative standard uncertainty (%)",
+                                   "Relative standard uncertainty %", "u_rel / %", "RSU (%)", "rel. u / ppm"}) {
         EXPECT_EQ(relative_column_of(head), Column::u) << head;
         EXPECT_EQ(column_of(head), std::nullopt) << head;
     }
-    for (const char* const head : {"w", "w / mm", "W / %", "weight / %"}) {
+    for (const char* const head : {"w", "w / mm", "W / %", "weight / %", "u_rel", "U_rel / %", "RSU", "Share %"}) {
         EXPECT_EQ(relative_column_of(head), std::nullopt) << head;
     }
 }

@@ -10,6 +10,7 @@
 
 #include "audit/audit.h"
 #include "audit/rules/registry.h"
+#include "audit/sources/budget_words.h"
 #include "audit/sources/workbook_subject.h"
 #include "text/numbers.h"
 #include "workbook/read_csv.h"
@@ -216,6 +217,68 @@ TEST(LayoutsOfTables, WhatIsNotUnderstoodOfHeadsIsNamed) {
         << "the first column is that of the quantities";
     EXPECT_TRUE(report_on("Point,Value,Unit,U\n1,10.1,V,0.2\n2,20.1,V,0.2\n").results.empty())
         << "results are no budget";
+}
+
+/// Of several columns of units the first may be that of the estimates: u = 15 beside a contribution of 15 nm is none in mm.
+TEST(LayoutsOfTables, UnitsOfEstimatesAreNotThoseOfU) {
+    const auto table = [](const std::string& contribution) {
+        return "Quantity,Estimate,Unit,u,c,Unit,Contribution / "
+               "nm\nReference,100.00002,mm,15,1,,15\nDifference,0,nm,10,1,nm/nm,"
+               "10\nTemperature,0,K,0.030,1150,nm/K," +
+               contribution + "\nu_c,,,,,,39.0\nU (k = 2),,,,,,78\n";
+    };
+    const AuditReport sound = report_on(table("34.5"));
+    ASSERT_EQ(sound.results.size(), 1U);
+    EXPECT_FALSE(finds(sound, "S01")) << accused_of(sound);
+    EXPECT_NEAR(sound.results[0].recomputed.u_c, 38.9, 0.1);
+    EXPECT_TRUE(finds(report_on(table("345")), "K01"));
+}
+
+/// Rows in groups with a sum each: what a row is called stands beside its group, which stands once, or again.
+TEST(LayoutsOfTables, GroupsHaveTheirSumsBesideThem) {
+    for (const char* const heads : {"Group,Source", "Category,Uncertainty source", "Quantity,Source",
+                                    "Component,Influence", "Symbol,Description"}) {
+        for (const char* const again : {"Reference", ""}) {
+            const auto table = [&](const std::string& u_c, const std::string& U) {
+                return std::string(heads) + ",Value (%),Divisor,u (%)\nReference,Certificate,0.10,2,0.0500\n" + again +
+                       ",Drift,0.06,1.732,0.0346\n,Subtotal reference,,,0.0608\nItem,Resolution,0.02,1.732,0.0115\n" +
+                       (*again == '\0' ? "" : "Item") + ",Repeatability,0.03,1,0.0300\n,Subtotal item,,,0.0321\n" +
+                       ",Total (k=1),,," + u_c + "\n,Expanded (k=2),,," + U + "\n";
+            };
+            const AuditReport sound = report_on(table("0.0688", "0.14"));
+            ASSERT_EQ(sound.subject.budgets.size(), 1U) << heads << "; " << again;
+            EXPECT_FALSE(finds(sound, "K01")) << heads << "; " << again << accused_of(sound);
+            EXPECT_NEAR(sound.results.at(0).recomputed.u_c, 0.0688, 5e-5) << heads << "; " << again;
+            const AuditReport wrong = report_on(table("0.0788", "0.16"));
+            EXPECT_TRUE(finds(wrong, "K01")) << heads << "; " << again;
+            EXPECT_NEAR(wrong.results.at(0).recomputed.u_c, 0.0688, 5e-5) << heads << "; " << again;
+        }
+    }
+}
+
+/// A product in chemistry: u(x) of its factors in their units, u(x)/x beside it, and the result made up of the latter (EURACHEM/CITAC
+/// CG 4, A1). As long as that column is not read, no u_c is made of what cannot be added.
+TEST(LayoutsOfTables, RelativeUncertaintiesBesideUAreAskedAbout) {
+    const auto table = [](const std::string& head, const std::string& mass, const std::string& volume) {
+        return "Description,Value,u," + head + "\nPurity P,0.9999,0.000058,0.000058\nMass m," + mass + "," + volume +
+               "\nVolume V,100.0,0.07,0.0007\nCombined,,,0.00086\nU (k = 2),,,0.0018\n";
+    };
+    for (const char* const head :
+         {"u(x)/x", "RSU", "u_rel", "Relative standard uncertainty", "rel. u", "w", "relative Standardunsicherheit"}) {
+        ASSERT_TRUE(is_of_relative_uncertainty(head)) << head;
+        const AuditReport report = report_on(table(head, "100.28", "0.05,0.0005"));
+        EXPECT_TRUE(report.results.empty()) << head << accused_of(report);
+        EXPECT_TRUE(tells(report, "has relative uncertainties and is not read")) << head;
+        EXPECT_TRUE(report_on(table(head, "100.28 mg", "0.05 mg,0.0005")).results.empty()) << head;
+    }
+    for (const char* const head : {"u", "u(x)", "Standard uncertainty", "relative humidity", "Relative to", "Value"}) {
+        EXPECT_FALSE(is_of_relative_uncertainty(head)) << head;
+    }
+    // Beside u in one unit it is for the reader.
+    const std::string same =
+        "Quantity,Value / V,u / V,u_rel (%)\nStandard,10.0,0.0030,0.030\nDrift,10.0,0.0040,0.040\nu_c,,0.0050,\n"
+        "U (k = 2),,0.010,\n";
+    EXPECT_EQ(report_on(same).results.size(), 1U);
 }
 
 TEST(LayoutsOfTables, SeveralStandardsAreAddedUp) {

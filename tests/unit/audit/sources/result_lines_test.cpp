@@ -137,7 +137,8 @@ TEST(ResultLines, SayCoverageInTheirNamesAndWords) {
           "\"Expanded uncertainty, k=2.08, 95.45 %\",,0.104,mg",
           "U,,0.104,mg,\"k = 2.08, coverage probability 95.45 %\"", "U,0.104 mg (k = 2.08; p = 95.45 %)",
           "U = 0.104 mg\nk = 2.08\np = 95.45 %", "U95,,0.104,mg\nk95,,2.08\np,95.45 %",
-          "U,,0.104,mg\nk,k = 2.08\np,95.45 %", "U (k = 2.08),,0.104,mg\np,95.45 %"}) {
+          "U,,0.104,mg\nk,k = 2.08\np,95.45 %", "U (k = 2.08),,0.104,mg\np,95.45 %",
+          "\"U mg (k = 2.08, p = 95.45 %)\",,0.104", "\"Expanded uncertainty mg (k = 2.08; 95.45 %)\",,0.104"}) {
         const ForeignTables tables = tables_with(rows + line + "\n");
         ASSERT_EQ(tables.budgets.size(), 1U) << line;
         const Claims& claims = tables.budgets[0].claims;
@@ -149,6 +150,11 @@ TEST(ResultLines, SayCoverageInTheirNamesAndWords) {
         EXPECT_EQ(tables.budgets[0].unit, "mg") << line;
         EXPECT_EQ(told(tables.not_read), "") << line;
     }
+    // A k under a head that is not known is no U beside one under u.
+    const ForeignTables beside = tables_with(
+        "quantity,unit,reduced by,u,sensitivity\na,mg,2,0.03,1\nb,mg,1,0.04,1\nu_c,mg,,0.05\nExpanded,mg,2,0.100\n");
+    ASSERT_EQ(beside.budgets.size(), 1U) << told(beside.not_read);
+    EXPECT_EQ(beside.budgets[0].claims.U->value, 0.100);
     const ForeignTables two = tables_with(rows + "U (k = 2),,0.104,mg\nk,,2.08\n");
     EXPECT_NE(told(two.not_read).find("which one holds?"), std::string::npos) << told(two.not_read);
     const ForeignTables words = tables_with(rows + "U,,0.104,mg\nk,,two\n");

@@ -35,6 +35,40 @@ TEST(TableHeads, NameAThirdColumnOfQuantities) {
     EXPECT_EQ(heads->second.size(), 1U);
 }
 
+TEST(TableHeads, OfALargeSymbolAreWhatIsDivided) {
+    const std::optional<Heads> heads = heads_in("Quantity,U_i / mm,k_i,u_i / mm\nStandard,0.024,2,0.012\n");
+    ASSERT_TRUE(heads);
+    EXPECT_EQ(heads->columns.at(Column::stated) + 2, heads->columns.at(Column::u));
+    EXPECT_TRUE(heads->columns.contains(Column::divisor));
+    EXPECT_TRUE(heads->second.empty());
+    EXPECT_EQ(heads->units.at(Column::u), "mm");
+    const std::optional<Heads> alone = heads_in("Quantity,U_i / mm,c\nStandard,0.024,2\n");
+    ASSERT_TRUE(alone);
+    EXPECT_TRUE(alone->columns.contains(Column::u)) << "in capitals, as far as it is said";
+    EXPECT_EQ(column_of("u, mm"), Column::u);
+}
+
+TEST(TableHeads, OfUBehindACoefficientAreContributions) {
+    const std::optional<Heads> heads = heads_in("Quantity,u,c,u_i / mW\nStandard,0.4,0.1,0.04\n");
+    ASSERT_TRUE(heads);
+    EXPECT_EQ(heads->columns.at(Column::u) + 2, heads->columns.at(Column::contribution));
+    EXPECT_EQ(heads->units.at(Column::contribution), "mW");
+    EXPECT_TRUE(heads->second.empty());
+    for (const char* const other : {"Quantity,u,u_i / mW,c\n", "Quantity,u_i,c,u_i / mW\n", "Quantity,u,c,u (2 V)\n"}) {
+        EXPECT_FALSE(heads_in(other)->columns.contains(Column::contribution)) << other;
+    }
+}
+
+TEST(TableHeads, OfGroupsNameNoRows) {
+    const auto first = [](const std::string& a, const std::string& b, const std::string& c) {
+        const std::optional<Heads> heads = heads_in("Group,Source,u,divisor\n" + a + ",certificate,0.1,2\n" + b +
+                                                    ",drift,0.1,1\n" + c + ",resolution,0.1,1\n");
+        return heads ? heads->columns.at(Column::quantity) : 0U;
+    };
+    EXPECT_EQ(first("reference", "reference", ""), first("reference", "", "")) << "the column of the sources";
+    EXPECT_EQ(first("reference", "drift", "display") + 1, first("reference", "reference", "reference"));
+}
+
 TEST(TableHeads, PartTablesBesideEachOther) {
     const workbook::Workbook workbook =
         workbook::read_csv("quantity,unit,u,quantity,unit,u\na,mm,0.1,b,mm,0.2\n", "b.csv", "b");

@@ -47,6 +47,21 @@ TEST(TableUnits, AreThoseOfHeadsAndCells) {
          {"U in µg, k = 2", "U in µg; k = 2", "U in µg (k = 2)", "u_c in µg = 361", "U / µg (k = 2)"}) {
         EXPECT_EQ(unit_in_head(head), "µg") << head;
     }
+    // A unit behind a blank: no symbol, no share, and nothing that a number stands before.
+    for (const char* head : {"u µg", "Standard uncertainty µg", "Beitrag µg", "U µg (k = 2)", "uc µg"}) {
+        EXPECT_EQ(unit_in_head(head), "µg") << head;
+    }
+    EXPECT_EQ(unit_in_head("u µV/V"), "µV/V");
+    EXPECT_EQ(unit_in_head("Relative uncertainty %"), "%");
+    EXPECT_EQ(unit_in_head("u, mm"), "mm");
+    EXPECT_EQ(unit_in_head("Specification (±mm)"), "mm");
+    EXPECT_EQ(unit_in_head("Limits (± mm)"), "mm");
+    EXPECT_EQ(unit_in_head("Limits (± 2)"), "");
+    EXPECT_EQ(unit_in_head("U (PSI)"), "PSI");
+    for (const char* head : {"Uncertainty uA", "Product cu", "Value K", "Contribution ci", "Contribution %",
+                             "u at 10 mm", "Value min", "Sensitivity c", "u 10 mV", "Difference T/K", "mm", " mm"}) {
+        EXPECT_EQ(unit_in_head(head), "") << head;
+    }
     EXPECT_EQ(unit_in_head("U in % of reading"), "");
     EXPECT_EQ(unit_in_head("contribution (y)"), "");
     EXPECT_EQ(unit_in_head("type (A)"), "");
@@ -57,6 +72,18 @@ TEST(TableUnits, AreThoseOfHeadsAndCells) {
     EXPECT_EQ(unit_in_rest("see the annex"), "");
     EXPECT_EQ(shared_unit("mK", "degC"), "degC");
     EXPECT_EQ(shared_unit("µm", "mm"), "µm");
+}
+
+TEST(TableUnits, OfACoefficientOfARowInPercentMayBeThatOfTheResult) {
+    const auto table = [](const std::string& heads, const std::string& u, const std::string& contribution) {
+        return report_of("Quantity," + heads +
+                         ",unit,Divisor,c,Contribution / mg\nReference,0.050,mg,2,1,0.0250\nScatter,0.016,mg,2,1,"
+                         "0.0080\nBuoyancy," +
+                         u + ",2.3," + contribution + "\nu_c,,,,,0.0271\nU (k = 2),,,,,0.054\n");
+    };
+    EXPECT_TRUE(critical_in(table("U or a", "0.5,%,1.732", "0.0066")).empty());
+    EXPECT_TRUE(critical_in(table("U or a", "5000,ppm,1.732", "0.0066")).empty());
+    EXPECT_FALSE(critical_in(table("U or a", "0.5,%,1.732", "0.664")).empty()) << "1 % is 2.3 mg, which u_c has not";
 }
 
 TEST(TableUnits, OfAContributionWithoutOneAreThoseOfTheOthers) {

@@ -90,6 +90,58 @@ TEST(WorksheetFindings, W04SeesADeviationOverN) {
         EXPECT_TRUE(found(row, "=G1/G2", other, "9").empty()) << other;
     }
     EXPECT_TRUE(found("Repeatability", "=G1/10", label, "4").empty()) << "ten of what?";
+    // s of a stack over its sheets is that of one sheet: asked, and not corrected.
+    for (const char* const pieces :
+         {"Thickness of a sheet, stack of 10 sheets, 10 readings", "Period, 10 swings, mean of 10 readings"}) {
+        const std::vector<AuditFinding> findings = found(pieces, "=G1/10", label, "9");
+        ASSERT_EQ(findings.size(), 1U) << pieces;
+        EXPECT_EQ(findings[0].severity, FindingSeverity::minor) << pieces;
+        EXPECT_FALSE(findings[0].effect) << pieces;
+    }
+    EXPECT_TRUE(found("Sheet, 10 readings", "=G1/10", label, "9").at(0).effect);
+}
+
+/// n of s/√n counts what stands above or below the readings as well.
+TEST(WorksheetFindings, W04SeesACountBeyondTheReadings) {
+    const auto found = [](const std::string& u) {
+        const test::Contents contents = {{"A1", "quantity"},
+                                         {"B1", "u"},
+                                         {"C1", "sensitivity"},
+                                         {"D1", "nu"},
+                                         {"F1", "readings"},
+                                         {"A2", "standard"},
+                                         {"B2", "0.001"},
+                                         {"C2", "1"},
+                                         {"D2", "inf"},
+                                         {"F2", "10.02"},
+                                         {"A3", "readings"},
+                                         {"B3", u},
+                                         {"C3", "1"},
+                                         {"D3", "3"},
+                                         {"F3", "10.04"},
+                                         {"A4", "u_c"},
+                                         {"B4", "=SQRT(SUMSQ(B2:B3))"},
+                                         {"F4", "10.03"},
+                                         {"A5", "k"},
+                                         {"B5", "2"},
+                                         {"F5", "10.05"},
+                                         {"A6", "U"},
+                                         {"B6", "=B5*B4"},
+                                         {"F6", "=AVERAGE(F2:F5)"},
+                                         {"F7", "=STDEV(F2:F5)"}};
+        return of_rule(audit(subject_of(test::workbook_of(contents), "b.xlsx"), all_rules()), "W04");
+    };
+    for (const char* const u :
+         {"=F7/SQRT(COUNT(F2:F7))", "=STDEV(F2:F5)/SQRT(COUNT(F2:F6))", "=F7/SQRT(COUNTA(F1:F5))"}) {
+        const std::vector<AuditFinding> findings = found(u);
+        ASSERT_EQ(findings.size(), 1U) << u;
+        ASSERT_TRUE(findings[0].effect) << u;
+        const double s = std::sqrt(5e-4 / 3.0);
+        EXPECT_NEAR(findings[0].effect->alone.u_c, std::hypot(s / 2.0, 0.001), 1e-9) << u;
+    }
+    for (const char* const u : {"=F7/SQRT(COUNT(F2:F5))", "=F7/SQRT(COUNTA(F2:F5))", "=F7/SQRT(3)", "=F7"}) {
+        EXPECT_TRUE(found(u).empty()) << u;
+    }
 }
 
 TEST(WorksheetFindings, W12TellsOfWhatIsHiddenInTheSum) {
