@@ -1,7 +1,7 @@
 """Every sentence that the program writes into a record has its wording in four languages, and every text of the wording
 is used.
 
-Six laws:
+Seven laws:
 1. A text of words in the sources that make findings, remarks and messages, every gate among them, stands in an English pattern of
    templates/wording/sentences.json. Texts that are put together of several literals are found literal by literal.
 2. Every entry of sentences.json has a text in each language, with the same placeholders, and the languages have the same
@@ -14,6 +14,7 @@ Six laws:
    "degrees of freedom" behind a number by itself (text/degrees_of_freedom.h): "1 degrees of freedom" is printed nowhere.
 6. A thing has one name in a language: what one sentence of a document calls a budget, a tolerance or consistency, the
    table beside it calls the same.
+7. What a reader of jobs warns of (warn()) stands in sentences.json, too: it is among the messages of the evaluation.
 """
 
 import json
@@ -58,6 +59,9 @@ SOURCES = (
     "gum/comparison/laboratory_data.cpp",
     "gum/rotary_table/location_errors.cpp",
 )
+
+# Readers whose warnings documents in all languages print. Plans and simulations are in English.
+WARNING_READERS = ("jobs/budget/*.cpp", "jobs/comparison/*.cpp", "jobs/laboratory/*.cpp")
 
 # Names that a language has for a thing beside the one that is used, and this one.
 OTHER_NAMES = {
@@ -134,6 +138,34 @@ def unknown_sentences(root: pathlib.Path, catalogue: dict) -> list[str]:
                 bare = part.strip(" ,;:()")
                 if is_sentence(part) and not any(bare in one for one in known):
                     problems.append(f"{name}: no wording in templates/wording/sentences.json for: {part!r}")
+    return problems
+
+
+def calls_of(name: str, source: str) -> list[str]:
+    """The arguments of each call of a function, as they stand."""
+    calls = []
+    for found in re.finditer(r"\b" + name + r"\(", source):
+        depth, at = 1, found.end()
+        while depth > 0 and at < len(source):
+            if source[at] == '"':
+                at = LITERAL.match(source, at).end()
+                continue
+            depth += {"(": 1, ")": -1}.get(source[at], 0)
+            at += 1
+        calls.append(source[found.end() : at])
+    return calls
+
+
+def unknown_warnings(root: pathlib.Path, catalogue: dict) -> list[str]:
+    """Law 7: sentences of warnings that have no wording."""
+    known = [part for entry in catalogue.values() for part in literals(entry["en"])]
+    problems = []
+    for path in sorted(path for pattern in WARNING_READERS for path in root.glob(pattern)):
+        for call in calls_of("warn", without_comments(path.read_text(encoding="utf-8"))):
+            for text in texts_of(call):
+                bare = text.strip(" ,;:()")
+                if is_sentence(text) and not any(bare in one for one in known):
+                    problems.append(f"{path.relative_to(root)}: warn() says what has no wording: {text!r}")
     return problems
 
 
@@ -394,6 +426,7 @@ def main(root: pathlib.Path) -> int:
         + unworded_audit(root, catalogue)
         + plurals(root, catalogue)
         + other_names(root, catalogue)
+        + unknown_warnings(root, catalogue)
     )
     for problem in problems:
         print(problem)
