@@ -171,6 +171,17 @@ void require_digits(int digits) {
     }
 }
 
+double number_in(const std::string& text) {
+    double number = 0.0;
+    std::from_chars(text.data(), text.data() + text.size(), number);
+    return number;
+}
+
+/// Whether two numbers as printed are in the order in which they are.
+bool has_order(double printed, double printed_other, double number, double other) {
+    return (printed < printed_other) == (number < other) && (printed > printed_other) == (number > other);
+}
+
 }  // namespace
 
 RoundedPair round_to_uncertainty(double value, double U, int digits, RoundingMode mode) {
@@ -240,6 +251,42 @@ std::string round_significant(double value, int digits) {
     const int leading = printed.leading_exponent();
     const bool fixed = printed.exponent <= 0 && leading >= k_first_fixed_exponent && leading <= k_last_fixed_exponent;
     return fixed ? fixed_text(printed) : power_of_ten_text(printed);
+}
+
+std::string round_significant_beside(double value, int digits, const std::vector<double>& limits) {
+    const auto stands = [&](const std::string& text) {
+        return std::all_of(limits.begin(), limits.end(),
+                           [&](double limit) { return has_order(number_in(text), limit, value, limit); });
+    };
+    for (int more = digits; more <= k_most_digits; ++more) {
+        std::string text = round_significant(value, more);
+        if (stands(text)) {
+            return text;
+        }
+    }
+    return round_significant(value, digits);  // rounding of the computation is all that parts them
+}
+
+std::vector<std::string> round_in_order(const std::vector<double>& numbers, int digits,
+                                        std::string (*rounded)(double number, int digits)) {
+    const auto texts_with = [&](int of) {
+        std::vector<std::string> texts;
+        for (const double number : numbers) {
+            texts.push_back(rounded(number, of));
+        }
+        return texts;
+    };
+    for (int more = digits; more <= k_most_digits; ++more) {
+        std::vector<std::string> texts = texts_with(more);
+        bool stands = true;
+        for (std::size_t i = 1; i < numbers.size(); ++i) {
+            stands = stands && has_order(number_in(texts[0]), number_in(texts[i]), numbers[0], numbers[i]);
+        }
+        if (stands) {
+            return texts;
+        }
+    }
+    return texts_with(digits);
 }
 
 std::string percent(double share) {

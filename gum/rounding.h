@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace gumcert::gum {
 
@@ -69,6 +70,20 @@ struct RoundedPair {
 /// \param digits  1 to 15
 /// \throws InputError  GC-GUM-0001 or -0040
 [[nodiscard]] std::string round_significant(double value, int digits);
+
+/// round_significant() of a number that is held against limits, with as many more digits as it takes for what is printed to be
+/// below, at or above each of them as the number is: 0.0498 beside a limit of 0.05 gives "0.0498", not "0.050".
+/// \param limits  finite; one that differs from the number by the rounding of a computation asks for nothing
+/// \throws InputError  GC-GUM-0001 or -0040
+[[nodiscard]] std::string round_significant_beside(double value, int digits, const std::vector<double>& limits);
+
+/// Texts of a number and of the limits that it is held against, each with as many more digits than `digits` as it takes for the
+/// first text to be below, at or above each of the others as the number is: χ² = 5.9917 exceeds 5.9915.
+/// \param numbers  the number, and behind it the limits; finite
+/// \param rounded  a function that rounds one of them to significant digits, or to decimals
+/// \throws InputError  what `rounded` throws
+[[nodiscard]] std::vector<std::string> round_in_order(const std::vector<double>& numbers, int digits,
+                                                      std::string (*rounded)(double number, int digits));
 
 /// A share of a variance in percent with one decimal, half-even, without the sign: 0.1234 gives "12.3".
 /// \throws InputError  GC-GUM-0001

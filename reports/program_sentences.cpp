@@ -22,7 +22,8 @@ using nlohmann::json;
 constexpr int k_most_steps = 2000;        // of matching one text with one pattern
 constexpr std::size_t k_longest = 20000;  // of a text that is looked up; a longer one stays as it is
 
-enum class Kind { text, number, sentence, list };
+/// `count`: a number that a form of number stands beside, "{points} {points?point|points}".
+enum class Kind { text, number, count, sentence, list };
 
 struct Placeholder {
     std::string name;
@@ -111,6 +112,13 @@ bool may_be_number(std::string_view text) {
     return !text.empty() && ((text.front() >= '0' && text.front() <= '9') || text.starts_with("∞"));
 }
 
+/// Whether a text is a number alone: of "36 points; 1.03 for 108" nothing counts points.
+bool may_be_count(std::string_view text) {
+    return may_be_number(text) && std::none_of(text.begin(), text.end(), [](char c) {
+               return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == ';';
+           });
+}
+
 /// The text of every placeholder, each as short as it can be; false where the pattern does not fit.
 /// \param steps  what is left to try: a text that somebody made to keep the program busy is given up
 bool match(const Pieces& pieces, std::string_view text, std::size_t i, std::vector<std::string>& values, int& steps) {
@@ -126,7 +134,9 @@ bool match(const Pieces& pieces, std::string_view text, std::size_t i, std::vect
     const auto take = [&](std::size_t length) {
         const std::string_view value = text.substr(0, length);
         const bool is_number = pieces.placeholders[i].kind == Kind::number;
-        if (value.empty() || (is_number && (!may_be_number(value) || value.find("; ") != std::string_view::npos))) {
+        const bool is_count = pieces.placeholders[i].kind == Kind::count;
+        if (value.empty() || (is_number && (!may_be_number(value) || value.find("; ") != std::string_view::npos)) ||
+            (is_count && !may_be_count(value))) {
             return false;
         }
         values.emplace_back(value);
@@ -194,7 +204,10 @@ ProgramSentences::ProgramSentences(const json& catalogue) {
         if (!texts.is_object() || !texts.contains("en")) {
             refuse(id, "no English text");
         }
-        for (const std::set<std::string>& ones : which_are_one(texts.at("en"))) {
+        const json& in_english = texts.at("en");
+        const std::vector<std::string> counted =
+            in_english.is_string() ? names_with_forms(in_english.get<std::string>()) : std::vector<std::string>();
+        for (const std::set<std::string>& ones : which_are_one(in_english)) {
             Pattern pattern{.id = id, .english = {}, .translations = {}};
             for (const auto& [language, text] : texts.items()) {
                 if (!text.is_string()) {
@@ -204,6 +217,11 @@ ProgramSentences::ProgramSentences(const json& catalogue) {
                                               return ones.contains(name);
                                           }));
                 if (language == "en") {
+                    for (Placeholder& placeholder : pieces.placeholders) {
+                        const bool counts =
+                            std::find(counted.begin(), counted.end(), placeholder.name) != counted.end();
+                        placeholder.kind = counts && placeholder.kind == Kind::text ? Kind::count : placeholder.kind;
+                    }
                     pattern.english = std::move(pieces);
                 } else {
                     pattern.translations.emplace(language, std::move(pieces));
@@ -225,6 +243,32 @@ ProgramSentences::ProgramSentences(const json& catalogue) {
     patterns_ = std::make_unique<const std::vector<Pattern>>(std::move(patterns));
 }
 
+/// Whether a value reaches into the next sentence: "36 points of the direction z; 1.03 for 108 points", where the direction is z.
+bool ProgramSentences::holds_another(const Found& found) const {
+    for (std::size_t i = 0; i < found.values.size(); ++i) {
+        const std::string& value = found.values[i];
+        if (holds_end_of_sentence(value)) {
+            return true;
+        }
+        const Kind kind = found.pattern->english.placeholders[i].kind;
+        if (kind == Kind::sentence || kind == Kind::list) {
+            continue;
+        }
+        for (std::size_t at = value.find("; "); at != std::string::npos; at = value.find("; ", at + 1)) {
+            const std::string_view behind = std::string_view(value).substr(at + 2);
+            const bool is_sentence = std::any_of(patterns_->begin(), patterns_->end(), [&](const Pattern& pattern) {
+                std::vector<std::string> values;
+                int steps = k_most_steps;
+                return pattern.letters <= behind.size() && match(pattern.english, behind, 0, values, steps);
+            });
+            if (is_sentence) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
 std::optional<ProgramSentences::Found> ProgramSentences::find(const std::string& text) const {
     const auto first_match = [this](const std::string& sentence, bool within_one) {
         std::optional<Found> result;
@@ -232,7 +276,7 @@ std::optional<ProgramSentences::Found> ProgramSentences::find(const std::string&
             Found found{.pattern = &pattern, .values = {}};
             int steps = k_most_steps;
             if (pattern.letters <= sentence.size() && match(pattern.english, sentence, 0, found.values, steps) &&
-                (!within_one || std::none_of(found.values.begin(), found.values.end(), holds_end_of_sentence))) {
+                (!within_one || !holds_another(found))) {
                 result = std::move(found);
                 break;
             }
@@ -357,7 +401,8 @@ std::string ProgramSentences::worded(const std::string& english, const std::stri
                        "names a value {" + pieces.placeholders[i].name + "} that does not exist");
             }
             const std::string& value = found->values[static_cast<std::size_t>(name - names.begin())];
-            out += name->kind == Kind::number     ? with_decimal_sign(value, sign)
+            const bool is_numeric = name->kind == Kind::number || name->kind == Kind::count;
+            out += is_numeric                     ? with_decimal_sign(value, sign)
                    : name->kind == Kind::sentence ? worded(value, language, sign)
                    : name->kind == Kind::list     ? worded_list(value, language, sign)
                                                   : value;

@@ -54,6 +54,7 @@ private:
     struct Found;
     std::unique_ptr<const std::vector<Pattern>> patterns_;
 
+    [[nodiscard]] bool holds_another(const Found& found) const;
     [[nodiscard]] std::optional<Found> find(const std::string& text) const;
     [[nodiscard]] std::string worded_list(const std::string& english, const std::string& language,
                                           const std::string& sign) const;

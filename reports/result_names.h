@@ -2,6 +2,7 @@
 
 #include "certificate/certified_results.h"
 #include "reports/document_text.h"
+#include "reports/record/evaluation_record.h"
 #include "reports/wording.h"
 
 #include <string>
@@ -30,6 +31,12 @@ namespace gumcert::reports {
 
 /// A source or an input quantity of the budget of a rotary table: "length noise".
 [[nodiscard]] Text source_name(const std::string& recorded, const Wording& words);
+
+/// A row of a budget: an input as the job names it, and in the languages of the document what the program named: "scatter of the
+/// readings", "fit of b", "calibration of STD-1".
+[[nodiscard]] Text name_of_budget_row(const BudgetRow& row, const Wording& words);
+/// The same of its source; none where it is the row itself.
+[[nodiscard]] Text source_of_budget_row(const BudgetRow& row, const Wording& words);
 
 /// A distribution of the record: "rectangular" for "uniform".
 [[nodiscard]] Text distribution_name(const std::string& recorded, const Wording& words);

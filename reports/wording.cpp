@@ -183,7 +183,12 @@ Text Wording::filled(const std::string& group, const std::string& name, const Va
 }
 
 Text Wording::number(const std::string& printed) const {
-    const std::string text = with_power_of_ten(printed.starts_with('-') ? "\u2212" + printed.substr(1) : printed);
+    std::string signs;  // of each number: "-0.008; -0.010 mg"
+    for (std::size_t i = 0; i < printed.size(); ++i) {
+        const bool begins = i == 0 || (printed[i - 1] == ' ' && i + 1 < printed.size() && is_digit(printed[i + 1]));
+        signs += begins && printed[i] == '-' ? std::string("\u2212") : std::string(1, printed[i]);
+    }
+    const std::string text = with_power_of_ten(signs);
     std::vector<std::string> all;
     for (const std::string& sign : signs_) {
         all.push_back(with_decimal_sign(text, sign));

@@ -928,8 +928,19 @@ std::optional<std::size_t> BudgetInputs::point_input(const std::string& name, co
     }
     const std::vector<std::string_view> known(names_.begin(), names_.end());
     const auto nearest = nearest_word(name, known);
+    // "x.u" is the head of a column; in a point of the job the keys of x stand in an object.
+    const std::size_t dot = column == nullptr ? name.find('.') : std::string::npos;
+    if (dot != std::string::npos && of_name_.contains(name.substr(0, dot))) {
+        problems.refuse(k_unknown_quantity, where, text::in_quotes(name) + " is the head of a column of a file",
+                        "a point of the job states an input by its name, as a number or as an object of its keys",
+                        "write " + text::in_quotes(name.substr(0, dot)) + ": {" +
+                            text::in_quotes(name.substr(dot + 1)) + ": …}, with all keys of the input in one object");
+        return std::nullopt;
+    }
     problems.refuse(k_unknown_quantity, where, text::in_quotes(name) + " is none of the inputs",
-                    "a point states inputs of the job, by NAME or NAME.key, and its own name as \"point\"",
+                    column == nullptr
+                        ? "a point states inputs of the job by their names, and its own name as \"point\""
+                        : "a point states inputs of the job, by NAME or NAME.key, and its own name as \"point\"",
                     column == nullptr && name.empty() ? "remove it, or name the input"
                     : name.empty()                    ? "give the column a name, or remove it"
                     : nearest                         ? "did you mean " + text::in_quotes(*nearest) + "?"

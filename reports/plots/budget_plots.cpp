@@ -3,6 +3,7 @@
 #include "gum/quantity/unit.h"
 #include "reports/plots/plot_frame.h"
 #include "reports/printable_text.h"
+#include "reports/result_names.h"
 
 #include <algorithm>
 #include <array>
@@ -60,8 +61,8 @@ BarPlot share_plot(const Result& result, const Wording& words, const std::string
                  .x_label = words("plot", "shares_axis").first(),
                  .bars = {}};
     for (const BudgetRow& row : result.budget) {
-        plot.bars.push_back(
-            {shortened(printable(row.input), k_label), 100.0 * row.share.number, words.number(row.share.text).first()});
+        plot.bars.push_back({shortened(printable(name_of_budget_row(row, words).first()), k_label),
+                             100.0 * row.share.number, words.number(row.share.text).first()});
     }
     if (result.correlation) {
         plot.bars.push_back({words("label", "correlation").first(), 100.0 * result.correlation->share.number,

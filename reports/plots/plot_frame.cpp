@@ -95,6 +95,14 @@ std::string AxisScale::label(const std::string& name, const std::string& unit) c
     return name + " / " + (unit.empty() ? power : "(" + power + " " + unit + ")");
 }
 
+std::string AxisScale::label(const std::string& title) const {
+    const std::size_t unit_at = title.rfind(" / ");
+    return exponent == 0 ? title
+           : unit_at == std::string::npos
+               ? label(title, "")
+               : label(title.substr(0, unit_at), title.substr(unit_at + std::string_view(" / ").size()));
+}
+
 void AxisRange::include(double v) {
     low = std::min(low, v);
     high = std::max(high, v);
@@ -192,12 +200,33 @@ double PlotFrame::py_inside(double v) const {
     return py(std::clamp(v, up.low, up.high));
 }
 
-double room_for_axis(const Ticks& up) {
+double widest_label(const Ticks& ticks) {
     double widest = 0.0;
-    for (int i = 0; i < up.count(); ++i) {
-        widest = std::max(widest, text_width(tick_text(up.at(i), up.decimals), k_tick_size));
+    for (int i = 0; i < ticks.count(); ++i) {
+        widest = std::max(widest, text_width(tick_text(ticks.at(i), ticks.decimals), k_tick_size));
     }
-    return widest + 6.0 + 5.0 + k_title_size + 4.0;
+    return widest;
+}
+
+Ticks ticks_apart(double low, double high, int most, double width) {
+    constexpr double k_apart = 2.0;  // widths are estimated amply
+    Ticks ticks = nice_ticks(low, high, most);
+    for (int fewer = most - 1; fewer > 0; --fewer) {
+        if (widest_label(ticks) + k_apart <= width * ticks.step / (ticks.high - ticks.low)) {
+            break;
+        }
+        ticks = nice_ticks(low, high, fewer);
+    }
+    return ticks;
+}
+
+double room_for_last_label(const Ticks& across, double least) {
+    const double half = 0.5 * text_width(tick_text(across.at(across.count() - 1), across.decimals), k_tick_size);
+    return half > least + 1.0 ? half : least;
+}
+
+double room_for_axis(const Ticks& up) {
+    return widest_label(up) + 6.0 + 5.0 + k_title_size + 4.0;
 }
 
 void draw_up_ticks(Drawing& drawing, const PlotFrame& frame) {

@@ -21,6 +21,8 @@ struct AxisScale {
     [[nodiscard]] double operator()(double v) const;
     /// "name / unit", "name / (10⁻⁶ unit)", "name" without unit.
     [[nodiscard]] std::string label(const std::string& name, const std::string& unit) const;
+    /// The same of "name / unit".
+    [[nodiscard]] std::string label(const std::string& title) const;
 };
 
 /// Lowest and highest of the numbers that an axis has to show.
@@ -79,6 +81,13 @@ struct PlotFrame {
     /// Vertical position of a value, at the edge where it lies beyond the axis.
     [[nodiscard]] double py_inside(double v) const;
 };
+
+/// Width of the widest label of an axis, about, in drawing units.
+[[nodiscard]] double widest_label(const Ticks& ticks);
+/// Ticks of a horizontal axis of that width: at most `most` intervals, and so few that their labels stand apart.
+[[nodiscard]] Ticks ticks_apart(double low, double high, int most, double width);
+/// Room right of a panel that half of the label at the end of its horizontal axis needs, at least `least`.
+[[nodiscard]] double room_for_last_label(const Ticks& across, double least);
 
 /// Room that the labels of a vertical axis and its title need left of the panel.
 [[nodiscard]] double room_for_axis(const Ticks& up);

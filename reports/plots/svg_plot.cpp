@@ -18,7 +18,8 @@ namespace gumcert::reports {
 
 namespace {
 
-constexpr double k_left = 50.0;  // room for tick labels and the axis label
+constexpr double k_left = 50.0;   // room for tick labels and the axis label, at least
+constexpr double k_title = 12.0;  // of it, left of the middle of the axis label
 constexpr double k_right = 10.0;
 constexpr double k_head = 22.0;     // room for the heading of a panel
 constexpr double k_foot = 8.0;      // below a panel that has no tick labels
@@ -209,7 +210,7 @@ void draw_limit_label(Drawing& drawing, const PlotPanel& panel, const PlotLimit&
     labels.push_back({best->left, best->left + width, best->y - 0.8 * k_size, best->y + 0.2 * k_size});
 }
 
-void draw_panel(Drawing& drawing, const PlotPanel& panel, const PlotFrame& frame, bool with_axis) {
+void draw_panel(Drawing& drawing, const PlotPanel& panel, const PlotFrame& frame, double left, bool with_axis) {
     drawing.text(frame.x, frame.y - 7.0, panel.heading, "start", 11.0, " font-weight=\"bold\"");
     drawing.rectangle(frame.x, frame.y, frame.width, frame.height, "fill=\"#ffffff\" stroke=\"none\"");
     draw_across_grid(drawing, frame);
@@ -248,7 +249,7 @@ void draw_panel(Drawing& drawing, const PlotPanel& panel, const PlotFrame& frame
     }
     draw_outline(drawing, frame);
     draw_across_ticks(drawing, frame, with_axis);
-    draw_upright_title(drawing, frame.x - 38.0, frame.y + 0.5 * frame.height, frame.height, panel.y_label);
+    draw_upright_title(drawing, frame.x - left + k_title, frame.y + 0.5 * frame.height, frame.height, panel.y_label);
 }
 
 /// A low panel from zero up, with ticks at both ends only.
@@ -405,10 +406,52 @@ void require_finite(const Plot& plot) {
     }
 }
 
+/// Room left of a panel for the labels of its vertical axis and its title.
+double room_left(const Ticks& up) {
+    constexpr double k_beside_labels = 21.0;  // tick, and the title beside the labels
+    return std::max(k_left, widest_label(up) + k_beside_labels);
+}
+
+/// The plot with each axis in a power of ten that keeps its labels short: "Error / (10⁻¹² F)". Labels of numbers as they are
+/// ran into the title of the axis, and beyond the picture: 5000000000 was read as 500000000.
+Plot in_powers_of_ten(Plot plot) {
+    double across = 0.0;
+    for (const PlotPanel& panel : plot.panels) {
+        for (const PlotSeries& series : panel.series) {
+            for (const PlotPoint& p : series.points) {
+                across = std::max(across, std::abs(p.x));
+            }
+        }
+    }
+    const AxisScale x_scale = plot.x_is_angle || plot.x_is_number ? AxisScale() : AxisScale::of(across);
+    plot.x_label = x_scale.label(plot.x_label);
+    for (PlotPanel& panel : plot.panels) {
+        const AxisRange range = range_of(panel, 0.0);
+        const AxisScale y_scale = AxisScale::of(std::max(std::abs(range.low), std::abs(range.high)));
+        panel.y_label = y_scale.label(panel.y_label);
+        panel.y_most = y_scale(panel.y_most);
+        for (PlotLimit& limit : panel.limits) {
+            limit.y = y_scale(limit.y);
+        }
+        for (PlotMark& mark : panel.marks) {
+            mark.x = x_scale(mark.x);
+        }
+        for (std::vector<PlotSeries>* all : {&panel.series, &panel.strip}) {
+            for (PlotSeries& series : *all) {
+                for (PlotPoint& p : series.points) {
+                    p = {.x = x_scale(p.x), .y = y_scale(p.y), .U = y_scale(p.U)};
+                }
+            }
+        }
+    }
+    return plot;
+}
+
 }  // namespace
 
-std::string svg(const Plot& plot) {
-    require_finite(plot);
+std::string svg(const Plot& stated) {
+    require_finite(stated);
+    const Plot plot = in_powers_of_ten(stated);
     double x_low = std::numeric_limits<double>::max();
     double x_high = std::numeric_limits<double>::lowest();
     std::vector<PlotSeries> key;
@@ -425,34 +468,41 @@ std::string svg(const Plot& plot) {
             }
         }
     }
+    const int count = static_cast<int>(plot.panels.size());
+    const int columns = std::max(1, plot.columns);
+    const int rows = (count + columns - 1) / columns;
+    const double column_width = (k_drawing_width - (columns - 1) * k_between) / columns;
+    std::vector<Ticks> ups;
+    double left = k_left;
+    for (const PlotPanel& panel : plot.panels) {
+        const AxisRange range = range_of(panel, plot.margin / plot.panel_height);
+        ups.push_back(nice_ticks(range.low, range.high, plot.panel_height > 100.0 ? 6 : 4));
+        left = std::max(left, room_left(ups.back()));
+    }
     Ticks across;
     if (x_low <= x_high) {
         across = plot.x_is_number  ? number_ticks(x_low, x_high, 8)
                  : plot.x_is_angle ? angle_ticks(x_low, x_high, plot.columns > 2 ? 4 : 8)
-                                   : nice_ticks(x_low, x_high, 8);
+                                   : ticks_apart(x_low, x_high, 8, column_width - left - k_right);
     }
+    const double right = room_for_last_label(across, k_right);
 
     Drawing drawing;
-    const int count = static_cast<int>(plot.panels.size());
-    const int columns = std::max(1, plot.columns);
-    const int rows = (count + columns - 1) / columns;
     const double top = draw_key(drawing, key);
     const double strip = plot.strip_height > 0.0 ? plot.strip_height + k_foot : 0.0;
     const double panel_pitch = k_head + plot.panel_height + strip + k_foot;
     const double height = top + rows * panel_pitch - k_foot + k_axis;
-    const double column_width = (k_drawing_width - (columns - 1) * k_between) / columns;
 
     for (int i = 0; i < count; ++i) {
         PlotPanel panel = plot.panels[static_cast<std::size_t>(i)];
         const int column = i / rows;
         const int row = i % rows;
-        const AxisRange range = range_of(panel, plot.margin / plot.panel_height);
-        const PlotFrame frame{.x = column * (column_width + k_between) + k_left,
+        const PlotFrame frame{.x = column * (column_width + k_between) + left,
                               .y = top + row * panel_pitch + k_head,
-                              .width = column_width - k_left - k_right,
+                              .width = column_width - left - right,
                               .height = plot.panel_height,
                               .across = across,
-                              .up = nice_ticks(range.low, range.high, plot.panel_height > 100.0 ? 6 : 4),
+                              .up = ups[static_cast<std::size_t>(i)],
                               .margin = plot.margin};
         if (panel.y_most > 0.0) {
             const double room = 3.0 * (frame.up.high - frame.up.low) / frame.height;  // the marker stays inside
@@ -463,7 +513,7 @@ std::string svg(const Plot& plot) {
             }
         }
         const bool lowest = row == rows - 1 || i == count - 1;
-        draw_panel(drawing, panel, frame, lowest && strip == 0.0);
+        draw_panel(drawing, panel, frame, left, lowest && strip == 0.0);
         PlotFrame below = frame;
         if (strip > 0.0) {
             below.y = frame.bottom() + k_foot;
@@ -544,11 +594,12 @@ std::string svg(const DensityPlot& plot) {
         high = std::max(high, interval.high);
     }
     const double strips = k_strip * static_cast<double>(plot.intervals.size());
+    const Ticks across = ticks_apart(low, high, 10, k_drawing_width - k_side - k_right);
     const PlotFrame frame{.x = k_side,
                           .y = k_key + 2.0,
-                          .width = k_drawing_width - k_side - k_right,
+                          .width = k_drawing_width - k_side - room_for_last_label(across, k_right),
                           .height = strips + k_curve,
-                          .across = nice_ticks(low, high, 10),
+                          .across = across,
                           .up = {.low = 0.0, .high = most > 0.0 ? most * (strips + k_curve) / (0.96 * k_curve) : 1.0}};
     const double bottom = frame.y + frame.height;
     const double height = bottom + k_axis;

@@ -471,25 +471,9 @@ std::string type_of(const BudgetRow& row) {
     return types.size() > 1 ? "A, B" : row.type;
 }
 
-/// The name of a row in the languages of the document, where the program gave it.
-Text name_of_row(const BudgetRow& row, const Wording& words) {
-    return row.part.empty() ? Text(row.input)
-                            : words.filled("budget_part", row.part, {{"standard", row.standard}, {"since", row.since}});
-}
-
-/// The same of its source.
-Text source_of_row(const BudgetRow& row, const Wording& words) {
-    return row.certificate.empty()
-               ? Text(row.source)
-               : words.filled("budget_part", "source", {{"standard", row.standard}, {"certificate", row.certificate}});
-}
-
 std::vector<Text> budget_line(const BudgetRow& row, const Result& result, bool part, const Wording& words) {
     const auto bracketed = [&](const std::string& text) { return part && !text.empty() ? "(" + text + ")" : text; };
-    const bool is_joint = row.role == "fit" || row.role == "fit_data";
-    return {is_joint ? words.filled("label", row.role == "fit" ? "fit_of" : "data_of", {{"name", row.input}})
-            : row.role == "scatter" ? words("label", "scatter_of_readings")
-                                    : name_of_row(row, words),
+    return {name_of_budget_row(row, words),
             with_unit(row.value.text, gum::unit_for_people(row.unit)),
             with_unit(row.u.text, gum::unit_for_people(difference_unit(row.unit))),
             distribution_name(row.distribution, words),
@@ -547,9 +531,9 @@ void sources(CertificateBuilder& builder, const Wording& words, const std::vecto
     };
     for (const Result* result : shown) {
         for (const BudgetRow& row : result->budget) {
-            add(row.input, source_of_row(row, words));
+            add(name_of_budget_row(row, words), source_of_budget_row(row, words));
             for (const BudgetRow& part : row.components) {
-                add(Text(row.input + ": ") + name_of_row(part, words), source_of_row(part, words));
+                add(Text(row.input + ": ") + name_of_budget_row(part, words), source_of_budget_row(part, words));
             }
         }
     }

@@ -293,7 +293,7 @@ std::vector<Text> contributions(const EvaluationRecord& record, const Wording& w
                 continue;
             }
             if (row.role != "fit") {
-                see(row.input);
+                see(name_of_budget_row(row, words));
                 continue;
             }
             Text data;

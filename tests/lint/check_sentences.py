@@ -1,7 +1,7 @@
 """Every sentence that the program writes into a record has its wording in four languages, and every text of the wording
 is used.
 
-Five laws:
+Seven laws:
 1. A text of words in the sources that make findings, remarks and messages, every gate among them, stands in an English pattern of
    templates/wording/sentences.json. Texts that are put together of several literals are found literal by literal.
 2. Every entry of sentences.json has a text in each language, with the same placeholders, and the languages have the same
@@ -12,6 +12,9 @@ Five laws:
    sentence of words that is no pattern.
 5. A noun that has a singular and a plural behind one number has both behind every number of its file, and no source writes
    "degrees of freedom" behind a number by itself (text/degrees_of_freedom.h): "1 degrees of freedom" is printed nowhere.
+6. A thing has one name in a language: what one sentence of a document calls a budget, a tolerance or consistency, the
+   table beside it calls the same.
+7. What a reader of jobs warns of (warn()) stands in sentences.json, too: it is among the messages of the evaluation.
 """
 
 import json
@@ -56,6 +59,23 @@ SOURCES = (
     "gum/comparison/laboratory_data.cpp",
     "gum/rotary_table/location_errors.cpp",
 )
+
+# Readers whose warnings documents in all languages print. Plans and simulations are in English.
+WARNING_READERS = ("jobs/budget/*.cpp", "jobs/comparison/*.cpp", "jobs/laboratory/*.cpp")
+
+# Names that a language has for a thing beside the one that is used, and this one.
+OTHER_NAMES = {
+    "de": {"bilanz": "Budget"},
+    "es": {
+        "presupuesto": "balance de incertidumbre",
+        "consistente": "coherente",
+        "consistencia": "coherencia",
+        "chi-cuadrado": "chi cuadrado",
+        "ji cuadrado": "chi cuadrado",
+        "ji al cuadrado": "chi cuadrado",
+    },
+    "zh-Hant": {"預算": "評估表", "公差": "容差", "允差": "容差", "所測量": "所量測"},
+}
 
 # Literals of these sources that are no sentences of a record, or end the program in place of a record.
 NOT_IN_RECORDS = (
@@ -118,6 +138,34 @@ def unknown_sentences(root: pathlib.Path, catalogue: dict) -> list[str]:
                 bare = part.strip(" ,;:()")
                 if is_sentence(part) and not any(bare in one for one in known):
                     problems.append(f"{name}: no wording in templates/wording/sentences.json for: {part!r}")
+    return problems
+
+
+def calls_of(name: str, source: str) -> list[str]:
+    """The arguments of each call of a function, as they stand."""
+    calls = []
+    for found in re.finditer(r"\b" + name + r"\(", source):
+        depth, at = 1, found.end()
+        while depth > 0 and at < len(source):
+            if source[at] == '"':
+                at = LITERAL.match(source, at).end()
+                continue
+            depth += {"(": 1, ")": -1}.get(source[at], 0)
+            at += 1
+        calls.append(source[found.end() : at])
+    return calls
+
+
+def unknown_warnings(root: pathlib.Path, catalogue: dict) -> list[str]:
+    """Law 7: sentences of warnings that have no wording."""
+    known = [part for entry in catalogue.values() for part in literals(entry["en"])]
+    problems = []
+    for path in sorted(path for pattern in WARNING_READERS for path in root.glob(pattern)):
+        for call in calls_of("warn", without_comments(path.read_text(encoding="utf-8"))):
+            for text in texts_of(call):
+                bare = text.strip(" ,;:()")
+                if is_sentence(text) and not any(bare in one for one in known):
+                    problems.append(f"{path.relative_to(root)}: warn() says what has no wording: {text!r}")
     return problems
 
 
@@ -351,6 +399,22 @@ def unworded_audit(root: pathlib.Path, of_program: dict) -> list[str]:
     return problems
 
 
+def other_names(root: pathlib.Path, catalogue: dict) -> list[str]:
+    """Law 6: texts with another name of a thing than the one that its language uses."""
+    of_audit = json.loads((root / "templates/wording/audit_sentences.json").read_text(encoding="utf-8"))
+    problems = []
+    for language, names in OTHER_NAMES.items():
+        wording = json.loads((root / f"templates/wording/{language}.json").read_text(encoding="utf-8"))
+        texts = [(f"{language}.json#{place}", text) for place, text in texts_in(wording)]
+        for name, entries in (("sentences.json", catalogue), ("audit_sentences.json", of_audit)):
+            texts += [(f"{name}#/{pattern}/{language}", of[language]) for pattern, of in entries.items() if language in of]
+        for place, text in texts:
+            problems += [
+                f"{place}: {other!r} is called {used!r} elsewhere" for other, used in names.items() if other in text.lower()
+            ]
+    return problems
+
+
 def main(root: pathlib.Path) -> int:
     catalogue = json.loads((root / "templates/wording/sentences.json").read_text(encoding="utf-8"))
     problems = (
@@ -361,6 +425,8 @@ def main(root: pathlib.Path) -> int:
         + unknown_sentences(root, catalogue)
         + unworded_audit(root, catalogue)
         + plurals(root, catalogue)
+        + other_names(root, catalogue)
+        + unknown_warnings(root, catalogue)
     )
     for problem in problems:
         print(problem)

@@ -1,5 +1,6 @@
 #include "gum/rounding.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -269,6 +270,26 @@ TEST(Rounding, NoiseOfAComputationDoesNotBreakATie) {
     // Where nearly all digits are kept, nothing is taken for noise.
     EXPECT_EQ(round_to_quantum(0.1234567890123456, 15), "0.123456789012346");
     EXPECT_EQ(round_to_quantum(9.9999999999999995, 1), "10.0");
+}
+
+/// What is printed beside a limit is on the side of it that the verdict is on.
+TEST(RoundSignificantBeside, StandsOnItsSideOfEachLimit) {
+    EXPECT_EQ(round_significant_beside(0.0498, 2, {0.05}), "0.0498");
+    EXPECT_EQ(round_significant_beside(0.04999996, 2, {0.05}), "0.04999996");
+    EXPECT_EQ(round_significant_beside(0.0502, 2, {0.05}), "0.0502");
+    EXPECT_EQ(round_significant_beside(0.05, 2, {0.05}), "0.050");
+    EXPECT_EQ(round_significant_beside(0.044, 2, {0.05, 0.025}), "0.044");
+    EXPECT_EQ(round_significant_beside(0.02496, 2, {0.05, 0.025}), "0.02496");
+    EXPECT_EQ(round_significant_beside(std::nextafter(0.05, 0.0), 2, {0.05}), "0.050") << "rounding of the computation";
+}
+
+TEST(RoundInOrder, KeepsTheOrderOfANumberAndItsLimits) {
+    using ::testing::ElementsAre;
+    EXPECT_THAT(round_in_order({1.648, 9.4877290}, 4, &round_significant), ElementsAre("1.648", "9.488"));
+    EXPECT_THAT(round_in_order({5.99149, 5.991465}, 4, &round_significant), ElementsAre("5.99149", "5.99146"))
+        << "both, until they differ";
+    EXPECT_THAT(round_in_order({2.0, 2.0}, 2, &round_significant), ElementsAre("2.0", "2.0"));
+    EXPECT_THAT(round_in_order({10.04, 3.0, 10.0}, 1, &round_to_quantum), ElementsAre("10.04", "3.00", "10.00"));
 }
 
 }  // namespace

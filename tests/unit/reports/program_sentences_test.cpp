@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <regex>
 #include <string>
 #include <vector>
@@ -137,6 +138,29 @@ TEST(ProgramSentences, HaveFormsOfNumber) {
     EXPECT_THROW(static_cast<void>(words.filled("g", "t", {{"m", "1"}})), gum::StorageError);
 }
 
+/// A value ends where its sentence does: half of a list stayed English, "für 36 points of the direction z; 1.03 against …".
+TEST(ProgramSentences, AreNoValuesOfEachOther) {
+    const ProgramSentences all(catalogue_file());
+    const std::string rows =
+        "1.03 against a limit of 1.95 for 36 points of the direction z; 1.03 against a limit of 1.95 for 108 points of "
+        "all "
+        "directions together";
+    EXPECT_EQ(all.worded(rows, "de", ","),
+              "1,03 gegen eine Grenze von 1,95 für 36 Punkte der Richtung z; 1,03 gegen eine Grenze von 1,95 für 108 "
+              "Punkte aller Richtungen zusammen");
+    const std::string whole =
+        "The limit that the largest of so many points exceeds in 1 of 100 comparisons is the one to "
+        "hold it against: " +
+        rows + ".";
+    for (const char* language : {"de", "es", "zh-Hant"}) {
+        EXPECT_THAT(all.worded(whole, language, ","), ::testing::Not(::testing::HasSubstr("points"))) << language;
+        EXPECT_THAT(all.worded(whole, language, ","), ::testing::HasSubstr("108")) << language;
+    }
+    EXPECT_EQ(all.worded("1.0 against a limit of 2.0 for 3 points of the direction x; y", "de", ","),
+              "1,0 gegen eine Grenze von 2,0 für 3 Punkte der Richtung x; y")
+        << "a name may have a semicolon";
+}
+
 TEST(ProgramSentences, RefuseADamagedCatalogue) {
     for (const char* text : {R"({"a": {"de": "x"}})", R"({"a": {"en": "x {name"}})", R"({"a": {"en": "x {n:colour}"}})",
                              R"({"a": {"en": "{a}{b}"}})", R"({"a": "x"})", R"({"a": {"en": 1}})"}) {
@@ -165,6 +189,7 @@ TEST(ProgramSentences, AreEachFoundAgain) {
     EXPECT_GT(file.size(), 300U);
     static const std::regex k_placeholder(R"(\{(\w+)(:(\w+))?\})");
     for (const auto& [id, texts] : file.items()) {
+        const std::vector<std::string> counted = names_with_forms(texts.at("en").get<std::string>());
         for (const bool one : {false, true}) {
             std::string english;
             std::vector<IdentifiedSentence::Argument> arguments;
@@ -174,8 +199,10 @@ TEST(ProgramSentences, AreEachFoundAgain) {
             int number = 0;
             while (std::regex_search(pattern, match, k_placeholder)) {
                 ++number;
-                const std::string value =
-                    match[3] == "number" ? std::to_string(number) + ".5" : "Qx" + std::to_string(number) + "z";
+                const bool is_count = std::find(counted.begin(), counted.end(), match[1]) != counted.end();
+                const std::string value = match[3] == "number" ? std::to_string(number) + ".5"
+                                          : is_count           ? std::to_string(number) + "7"
+                                                               : "Qx" + std::to_string(number) + "z";
                 english += match.prefix().str() + value;
                 arguments.push_back({.name = match[1], .value = value});
                 pattern = match.suffix();

@@ -40,6 +40,23 @@ TEST_F(Names, OfTheProgramAreInEveryLanguage) {
     EXPECT_EQ(distribution_name("convolution", words_).in(1), "Faltung");
 }
 
+/// Bars, the list of sources and the statement of uncertainty named the scatter of a circle closure in English.
+TEST_F(Names, OfRowsOfABudgetAreThoseOfTheDocument) {
+    BudgetRow scatter;
+    scatter.input = "scatter of the readings";
+    scatter.source = scatter.input;
+    scatter.role = "scatter";
+    EXPECT_EQ(name_of_budget_row(scatter, words_).in(1), "Streuung der Ablesungen");
+    EXPECT_TRUE(source_of_budget_row(scatter, words_).empty());
+    BudgetRow input;
+    input.input = "l_s";
+    input.source = "STD-1";
+    EXPECT_EQ(name_of_budget_row(input, words_).in(1), "l_s");
+    EXPECT_EQ(source_of_budget_row(input, words_).in(1), "STD-1");
+    input.role = "fit";
+    EXPECT_NE(name_of_budget_row(input, words_).in(0), name_of_budget_row(input, words_).in(1));
+}
+
 TEST_F(Names, OfAnythingElseAreThoseOfTheRecord) {
     EXPECT_EQ(german("results", "R"), "recorded") << "a resistance, not the repeatability of positioning";
     EXPECT_EQ(german("results", "O_y"), "recorded");

@@ -36,10 +36,6 @@ Index at(std::size_t i) {
     return static_cast<Index>(i);
 }
 
-std::string rounded(double value, int digits = k_digits_of_u) {
-    return gum::round_significant(value, digits);
-}
-
 /// What one output is called.
 struct OutputName {
     std::string name, quantity, point, description;
@@ -149,7 +145,9 @@ reports::ClosureTestRow test_row(const std::string& name, const engine::ClosureT
     if (const std::optional<double> nu = finite_or_none(test.nu_reference)) {
         row.nu_reference = shown_to_quantum(*nu, 0);
     }
-    row.p_value = {p_value, p_value < k_least_printed ? "< 0.0001" : rounded(p_value)};
+    row.p_value = {p_value, p_value < k_least_printed
+                                ? "< 0.0001"
+                                : gum::round_significant_beside(p_value, k_digits_of_u, {k_accepted_p})};
     row.accepted = p_value >= k_accepted_p;
     return row;
 }

@@ -1,9 +1,12 @@
 #include "reports/record/make/comparison/comparison_print.h"
 
+#include <array>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <system_error>
+#include <vector>
 
 #include "gum/comparison/scores.h"
 #include "gum/rounding.h"
@@ -19,6 +22,8 @@ constexpr int k_decimals_of_score = 2;
 // Tails below what double precision holds come out as 0, which no probability of a test is.
 constexpr double k_least_probability = 1e-300;
 constexpr const char* k_below_least = "<1E-300";
+// Of consistency, of p_low and p_high, of a bias and a pattern.
+constexpr std::array k_limits_of_probabilities = {0.05, 0.025, 0.01};
 
 enum class SideOf { en, z, allowed };
 
@@ -108,6 +113,13 @@ std::string printed_difference(double difference, const std::optional<double>& U
                                  : gum::round_significant(difference, k_digits_without_u);
 }
 
+std::string printed_difference_of(double size, double difference, const std::optional<double>& U,
+                                  const std::optional<double>& scale) {
+    constexpr double k_roundings = 4.0;  // of both numbers and their difference
+    const double lost = k_roundings * std::numeric_limits<double>::epsilon() * (std::abs(size) + std::abs(difference));
+    return printed_difference(gum::settled_decimal(difference, lost), U, scale);
+}
+
 std::string printed_uncertainty(const std::optional<double>& u) {
     if (!u) {
         return "";
@@ -125,11 +137,15 @@ std::string printed_score(const std::optional<double>& score) {
 }
 
 std::string printed_probability(const std::optional<double>& probability) {
-    if (!probability) {
-        return "";
-    }
-    return *probability < k_least_probability ? k_below_least
-                                              : gum::round_significant(*probability, reports::k_digits_of_u);
+    return probability ? printed_probability_beside(*probability, k_limits_of_probabilities.front()) : "";
+}
+
+std::string printed_probability_beside(double probability, double limit) {
+    std::vector<double> limits(k_limits_of_probabilities.begin(), k_limits_of_probabilities.end());
+    limits.push_back(limit);
+    return probability < k_least_probability
+               ? k_below_least
+               : gum::round_significant_beside(probability, reports::k_digits_of_u, limits);
 }
 
 bool is_turn_apart(double first, double second, const gum::Unit& unit) {

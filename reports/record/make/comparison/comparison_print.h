@@ -20,6 +20,10 @@ namespace gumcert::reports {
 /// four significant digits without one.
 [[nodiscard]] std::string printed_difference(double difference, const std::optional<double>& U,
                                              const std::optional<double>& scale);
+/// The same of a difference of numbers of a size, which as a difference of decimal numbers is the decimal one that was meant:
+/// 10.1 - 10.025 is 0.075, whose tie goes to 0.08, and not the 0.0749… that binary numbers leave.
+[[nodiscard]] std::string printed_difference_of(double size, double difference, const std::optional<double>& U,
+                                                const std::optional<double>& scale);
 /// Two significant digits at the decimal place that printed_value() gives a value with it; "" for nothing.
 [[nodiscard]] std::string printed_uncertainty(const std::optional<double>& u);
 /// A number that the job states: all its digits; "" for nothing.
@@ -34,8 +38,11 @@ namespace gumcert::reports {
 [[nodiscard]] reports::Shown<std::optional<double>> shown_worst_en(const std::optional<double>& en);
 [[nodiscard]] std::string printed_z(const std::optional<double>& score);
 [[nodiscard]] std::string printed_share_of_allowed(const std::optional<double>& percent);
-/// Two significant digits, not less than 0.0001 in plain decimals, "<1E-300" below that; "" for nothing.
+/// Two significant digits, not less than 0.0001 in plain decimals, "<1E-300" below that; "" for nothing. As many more as it
+/// takes to see on which side of the limits of the comparison it is, 0.05, 0.025 and 0.01: 0.0498 and not 0.050.
 [[nodiscard]] std::string printed_probability(const std::optional<double>& probability);
+/// The same beside the limit of a test, too.
+[[nodiscard]] std::string printed_probability_beside(double probability, double limit);
 
 /// A number with the text that one of these functions makes of it.
 template <class Number>

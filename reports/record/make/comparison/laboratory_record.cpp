@@ -22,6 +22,7 @@ using reports::ComparisonPoint;
 
 constexpr int k_digits_of_computed_sigma = 3;
 constexpr int k_digits_of_chi_square = 4;
+constexpr int k_decimals_of_birge_ratio = 2;
 constexpr int k_digits_of_weight = 3;
 
 std::optional<std::int64_t> count(const std::optional<std::size_t>& number) {
@@ -138,22 +139,22 @@ std::vector<std::string> ids(const gum::ComparisonScheme& scheme, const std::vec
     return found;
 }
 
-std::string printed_chi_square(const std::optional<double>& chi_square) {
-    return gum::round_significant(*chi_square, k_digits_of_chi_square);
-}
-
 reports::ConsistencySummary consistency_record(const gum::ResultConsistency& consistency) {
     const gum::ConsistencyTest& test = consistency.test;
     reports::ConsistencySummary summary;
-    summary.chi_square = shown(test.chi_square, printed_chi_square);
-    summary.critical_value = shown(test.critical_value, printed_chi_square);
-    summary.p_value = shown(test.p_value, printed_probability);
+    const std::vector<std::string> chi_square =
+        gum::round_in_order({test.chi_square, test.critical_value}, k_digits_of_chi_square, &gum::round_significant);
+    summary.chi_square = {test.chi_square, chi_square[0]};
+    summary.critical_value = {test.critical_value, chi_square[1]};
+    summary.p_value = {test.p_value, printed_probability_beside(test.p_value, consistency.alpha)};
     summary.alpha = consistency.alpha;
     summary.degrees_of_freedom = static_cast<std::int64_t>(test.degrees_of_freedom);
     summary.consistent = test.consistent;
     summary.by_chance = consistency.by_chance;
-    summary.birge_ratio = shown(test.birge_ratio, printed_score);
-    summary.birge_limit = shown(test.birge_limit, printed_score);
+    const std::vector<std::string> birge =
+        gum::round_in_order({test.birge_ratio, test.birge_limit}, k_decimals_of_birge_ratio, &gum::round_to_quantum);
+    summary.birge_ratio = {test.birge_ratio, birge[0]};
+    summary.birge_limit = {test.birge_limit, birge[1]};
     if (consistency.u_items > 0.0) {
         summary.u_items = shown(consistency.u_items, printed_uncertainty);
     }
@@ -178,6 +179,13 @@ reports::ReferenceEstimate estimate_record(const gum::ReferenceEstimate& from) {
     return estimate;
 }
 
+/// A standard deviation or difference and the limits that it is held against, as uncertainties are printed, and in their order.
+std::vector<std::string> printed_with_limits(double number, double limit, double expanded_limit) {
+    return gum::round_in_order({number, limit, expanded_limit}, reports::k_digits_of_u, [](double of, int digits) {
+        return of > 0.0 ? gum::round_to_uncertainty(0.0, of, digits).U : std::string("0");
+    });
+}
+
 reports::HomogeneitySummary homogeneity_record(const gum::HomogeneityCheck& check) {
     reports::HomogeneitySummary summary;
     summary.items = static_cast<std::int64_t>(check.items);
@@ -185,9 +193,10 @@ reports::HomogeneitySummary homogeneity_record(const gum::HomogeneityCheck& chec
     summary.mean = {check.mean, printed_value(check.mean, check.s_x > 0.0 ? check.s_x : check.s_w)};
     summary.s_x = shown(check.s_x, printed_uncertainty);
     summary.s_w = shown(check.s_w, printed_uncertainty);
-    summary.s_s = shown(check.s_s, printed_uncertainty);
-    summary.limit = shown(check.limit, printed_uncertainty);
-    summary.expanded_limit = shown(check.expanded_limit, printed_uncertainty);
+    const std::vector<std::string> texts = printed_with_limits(check.s_s, check.limit, check.expanded_limit);
+    summary.s_s = {check.s_s, texts[0]};
+    summary.limit = {check.limit, texts[1]};
+    summary.expanded_limit = {check.expanded_limit, texts[2]};
     summary.sufficient = check.sufficient;
     summary.sufficient_expanded = check.sufficient_expanded;
     return summary;
@@ -196,10 +205,11 @@ reports::HomogeneitySummary homogeneity_record(const gum::HomogeneityCheck& chec
 reports::StabilitySummary stability_record(const gum::StabilityCheck& later, const gum::HomogeneityCheck& before) {
     reports::StabilitySummary stability;
     stability.mean = {later.mean, printed_value(later.mean, before.s_x > 0.0 ? before.s_x : before.s_w)};
-    stability.difference = shown(later.difference, printed_uncertainty);
+    const std::vector<std::string> texts = printed_with_limits(later.difference, later.limit, later.expanded_limit);
+    stability.difference = {later.difference, texts[0]};
     stability.u_difference = later.u_difference;
-    stability.limit = shown(later.limit, printed_uncertainty);
-    stability.expanded_limit = shown(later.expanded_limit, printed_uncertainty);
+    stability.limit = {later.limit, texts[1]};
+    stability.expanded_limit = {later.expanded_limit, texts[2]};
     stability.stable = later.stable;
     stability.stable_expanded = later.stable_expanded;
     return stability;
@@ -218,11 +228,12 @@ reports::ConsensusCheck consensus_record(const gum::ConsensusCheck& from) {
     return check;
 }
 
-reports::PairEquivalence pair_record(const gum::ComparisonScheme& scheme, const gum::PairEquivalence& from) {
+reports::PairEquivalence pair_record(const gum::ComparisonScheme& scheme, const gum::PairEquivalence& from,
+                                     double assigned_value) {
     reports::PairEquivalence pair;
     pair.first = scheme.participants[from.first].id;
     pair.second = scheme.participants[from.second].id;
-    pair.d = {from.d, printed_difference(from.d, from.U, std::nullopt)};
+    pair.d = {from.d, printed_difference_of(assigned_value, from.d, from.U, std::nullopt)};
     pair.u = from.u;
     pair.U = shown(from.U, printed_uncertainty);
     pair.En = shown(from.en, printed_en);
@@ -335,7 +346,7 @@ ComparisonItemEvaluation item_record(const gum::ComparisonScheme& scheme, const 
         item.consensus = consensus_record(*from.consensus);
     }
     for (const gum::PairEquivalence& pair : from.pairs) {
-        item.pairs.push_back(pair_record(scheme, pair));
+        item.pairs.push_back(pair_record(scheme, pair, from.value));
     }
     return item;
 }
@@ -349,7 +360,7 @@ void add_scores(const gum::ScoredResult& from, const ComparisonItemEvaluation& i
     const auto shown_difference = [&](const std::optional<double>& D) {
         return reports::Shown<std::optional<double>>{D, D ? printed_difference(*D, U_D, scale) : ""};
     };
-    point.D = {from.difference, printed_difference(from.difference, U_D, scale)};
+    point.D = {from.difference, printed_difference_of(from.assigned_value, from.difference, U_D, scale)};
     point.u_D = from.u_difference;
     point.U_D = shown(U_D, printed_uncertainty);
     point.D_low = shown_difference(from.low);

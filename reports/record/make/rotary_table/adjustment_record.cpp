@@ -21,6 +21,7 @@ using engine::RotaryTableSolution;
 using reports::Printed;
 
 constexpr double k_acceptance = 0.95;  // of the global test
+constexpr int k_decimals_of_chi_square = 1;
 
 std::array<std::array<double, 3>, 3> in_square_millimetres(const Eigen::Matrix3d& covariance) {
     std::array<std::array<double, 3>, 3> result{};
@@ -101,7 +102,8 @@ void fill_reflectors(reports::RotaryTable& rotary, const RotaryTableSolution& so
 }
 
 /// Chi-square of the adjustment against its distribution, both tails.
-reports::GlobalTest global_test(const RotaryTableSolution& solution) {
+/// \param chi_square  gets its text: on the side of the limits on which the number is
+reports::GlobalTest global_test(const RotaryTableSolution& solution, reports::Shown<double>& chi_square) {
     const auto nu = static_cast<std::size_t>(solution.degrees_of_freedom);
     // The quantile of chi-square is the square of the factor of the ellipsoid for nu quantities.
     const auto limit = [nu](double probability) {
@@ -109,8 +111,13 @@ reports::GlobalTest global_test(const RotaryTableSolution& solution) {
     };
     reports::GlobalTest test;
     test.probability = k_acceptance;
-    test.lower = shown_to_quantum(limit(0.5 * (1.0 - k_acceptance)), 1);
-    test.upper = shown_to_quantum(limit(0.5 * (1.0 + k_acceptance)), 1);
+    const double lower = limit(0.5 * (1.0 - k_acceptance));
+    const double upper = limit(0.5 * (1.0 + k_acceptance));
+    const std::vector<std::string> texts =
+        gum::round_in_order({solution.chi_square, lower, upper}, k_decimals_of_chi_square, &gum::round_to_quantum);
+    chi_square.text = texts[0];
+    test.lower = {lower, texts[1]};
+    test.upper = {upper, texts[2]};
     test.accepted = test.lower.number <= solution.chi_square && solution.chi_square <= test.upper.number;
     if (test.accepted && solution.variance_basis == engine::VarianceBasis::estimated) {
         test.meaning =
@@ -144,7 +151,7 @@ void fill_test(reports::RotaryTable& rotary, const RotaryTableSolution& solution
     adjustment.parameters = solution.parameters;
     adjustment.degrees_of_freedom = solution.degrees_of_freedom;
     adjustment.iterations = solution.iterations;
-    adjustment.chi_square = shown_to_quantum(solution.chi_square, 1);
+    adjustment.chi_square = shown_to_quantum(solution.chi_square, k_decimals_of_chi_square);
     const auto nu = static_cast<double>(solution.degrees_of_freedom);
     adjustment.p_value = shown_significant(nu > 0.0 ? gum::chi_square_upper_tail(solution.chi_square, nu) : 1.0, 2);
     adjustment.condition_number = shown_significant(solution.condition_number, 2);
@@ -154,7 +161,7 @@ void fill_test(reports::RotaryTable& rotary, const RotaryTableSolution& solution
                                   .used = "a_priori",
                                   .reason = solution.variance_factor_reason};
     if (solution.degrees_of_freedom > 0) {
-        adjustment.global_test = global_test(solution);
+        adjustment.global_test = global_test(solution, adjustment.chi_square);
     }
 }
 

@@ -58,9 +58,11 @@ reports::GroupTestRow group_row(const GroupTest& test, const RotaryTableMeasurem
     reports::GroupTestRow row;
     row.kind = group_kind_name(test.kind);
     row.tests = static_cast<std::int64_t>(test.family);
-    row.test_value = shown_to_quantum(test.chi_square, 1);
+    const std::vector<std::string> texts =
+        gum::round_in_order({test.chi_square, test.critical_value}, 1, &gum::round_to_quantum);
+    row.test_value = {test.chi_square, texts[0]};
     row.degrees_of_freedom = test.degrees_of_freedom;
-    row.critical_value = shown_to_quantum(test.critical_value, 1);
+    row.critical_value = {test.critical_value, texts[1]};
     row.p_value = shown_significant(test.p_value, 2);
     const auto name = [](const std::vector<std::string>& names, std::size_t at) {
         return at == GroupTest::k_none ? std::string() : names[at];
@@ -153,7 +155,9 @@ void fill_reversal_model(reports::RotaryTable& rotary, const engine::RotaryTable
         if (std::isfinite(test.residual)) {
             row.residual_degrees_of_freedom = test.residual;
         }
-        row.p_value = {test.p_value, test.p_value < 1e-4 ? "< 0.0001" : gum::round_significant(test.p_value, 2)};
+        row.p_value = {test.p_value, test.p_value < 1e-4
+                                         ? "< 0.0001"
+                                         : gum::round_significant_beside(test.p_value, 2, {model.alpha})};
         row.spread = shown_significant(test.spread / unit.si, 2);
         row.unit = unit.record;
         row.depends_on_angle = test.depends_on_angle;

@@ -300,6 +300,8 @@ const std::vector<BadBudget>& bad_budgets() {
          "p.csv:1:3",
          R"j("columns": {"Ser.no": "text"})j",
          {{"p.csv", "a,Ser.no\n1,7\n"}}},
+        {"point_key_of_a_column", abc(R"j("points": [{"a.u": 1}])j"), code(k_unknown_quantity),
+         "job.json#/points/0/a.u", R"j(write "a": {"u": …})j"},
         {"point_key_without_name", abc(R"j("points": [{"a": 1, "": 3}])j"), code(k_unknown_quantity),
          "job.json#/points/0/", "remove it, or name the input"},
         {"point_cell",

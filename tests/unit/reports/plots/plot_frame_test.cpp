@@ -21,6 +21,18 @@ TEST(PlotFrame, ScalesAnAxisWhoseLabelsWouldBeLong) {
     EXPECT_EQ(AxisScale{}.label("D", ""), "D");
     EXPECT_EQ(AxisScale{.exponent = -6}.label("D", "m"), "D / (10⁻⁶ m)");
     EXPECT_EQ(AxisScale{.exponent = 12}.label("D", ""), "D / 10¹²");
+    EXPECT_EQ(AxisScale{}.label("D / mm"), "D / mm");
+    EXPECT_EQ(AxisScale{.exponent = -6}.label("a / b / m"), "a / b / (10⁻⁶ m)");
+    EXPECT_EQ(AxisScale{.exponent = -6}.label("D"), "D / 10⁻⁶");
+}
+
+TEST(PlotFrame, MakesRoomForLabels) {
+    EXPECT_EQ(ticks_apart(0.0, 10.0, 10, 600.0).count(), 11);
+    const Ticks close = ticks_apart(1234.5678901, 1234.5678909, 10, 300.0);
+    EXPECT_LT(widest_label(close), 300.0 * close.step / (close.high - close.low));
+    EXPECT_LT(close.count(), 9);
+    EXPECT_DOUBLE_EQ(room_for_last_label({.low = 0.0, .high = 360.0, .step = 45.0}, 10.0), 10.0);
+    EXPECT_GT(room_for_last_label({.low = 0.0, .high = 1e5, .step = 1e4}, 10.0), 14.0);
 }
 
 TEST(PlotFrame, HasMedianAndSpreadOfTheBulk) {

@@ -133,6 +133,62 @@ TEST(SvgPlot, TicksAreRoundNumbersWithOneSign) {
     EXPECT_THAT(svg(free), HasSubstr(">180<"));
 }
 
+/// Labels were cut at the edge of the picture, where 5000000000 was read as 500000000, and ran into each other and the titles.
+TEST(SvgPlot, LabelsOfAxesOfAnySizeStandInsideThePictureAndApart) {
+    const std::regex form(
+        "<text x=\"([^\"]*)\" y=\"([^\"]*)\" font-size=\"10\" text-anchor=\"(end|middle)\"[^>]*serif\">([^<]*)<");
+    const std::regex title("<text x=\"([^\"]*)\"[^>]*rotate[^>]*>([^<]*)<");
+    constexpr double k_middle_of_letters = 4.0;
+    for (const double size : {1e-15, 7e-7, 0.012, 5e3, 3.2e5, 5e9}) {
+        for (const double offset : {0.0, size < 1e6 ? 1e3 : 10.0}) {
+            for (const int columns : {1, 2}) {
+                Plot plot = one_panel(-size, size);
+                plot.panels[0].limits.clear();
+                plot.panels[0].y_label = "Error / F";
+                plot.x_label = "Reference / F";
+                plot.x_is_angle = false;
+                plot.margin = 8.0;
+                plot.columns = columns;
+                plot.panels[0].series[0].points = {{offset * size, -size, 0.0},
+                                                   {(offset + 1.0) * size, 0.0, size},
+                                                   {(offset + 2.0) * size, size, 0.0}};
+                plot.panels.push_back(plot.panels[0]);
+                const std::string drawing = svg(plot);
+                std::vector<double> titles;
+                for (std::sregex_iterator t(drawing.begin(), drawing.end(), title); t != std::sregex_iterator(); ++t) {
+                    titles.push_back(std::stod((*t)[1]) + k_middle_of_letters);
+                }
+                ASSERT_EQ(titles.size(), 2U);
+                double before = -1e9;
+                std::string line;
+                for (std::sregex_iterator l(drawing.begin(), drawing.end(), form); l != std::sregex_iterator(); ++l) {
+                    const double x = std::stod((*l)[1]);
+                    const double width = 0.9 * text_width((*l)[4], 10.0);  // the estimate is ample
+                    const std::string where = (*l)[4].str() + " of " + std::to_string(size) + " " +
+                                              std::to_string(offset) + " " + std::to_string(columns);
+                    if ((*l)[3] == "end") {
+                        const bool second = columns == 2 && x > 340.0;
+                        EXPECT_GE(x - width, titles[second ? 1 : 0]) << where;
+                        continue;
+                    }
+                    EXPECT_LE(x + 0.5 * width, 680.5) << where;
+                    const bool continues = line == (*l)[2] && x > before;
+                    EXPECT_TRUE(!continues || x - 0.5 * width > before) << where;
+                    before = x + 0.5 * width;
+                    line = (*l)[2];
+                }
+                EXPECT_NE(line, "");
+            }
+        }
+    }
+    Plot tiny = one_panel(1e-12, 3e-12);
+    tiny.panels[0].limits.clear();
+    tiny.panels[0].y_label = "Error / F";
+    EXPECT_THAT(svg(tiny), HasSubstr(">Error / (10⁻¹² F)<"));
+    EXPECT_THAT(svg(tiny), HasSubstr(">3.0<"));
+    EXPECT_THAT(svg(tiny), HasSubstr(">x<")) << "an angle has no power";
+}
+
 TEST(SvgPlot, DegenerateScalesStillHaveAPlot) {
     for (const double v : {0.0, 1e-30, 5.0, -1e9}) {
         Plot flat = one_panel(v, v);

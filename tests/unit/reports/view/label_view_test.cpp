@@ -23,7 +23,7 @@ TEST(Label, WritesTheMonthAsAWord) {
     EXPECT_EQ(in("en", "2026-11-09"), "9 November 2026");
     EXPECT_EQ(in("de", "2026-03-21"), "21. März 2026");
     EXPECT_EQ(in("es", "2026-01-01"), "1 de enero de 2026");
-    EXPECT_EQ(in("zh-Hant", "2026-12-31"), "2026年十二月31日");
+    EXPECT_EQ(in("zh-Hant", "2026-12-31"), "2026年12月31日");
     EXPECT_EQ(in("en", ""), "");
 }
 

@@ -305,6 +305,8 @@ TEST(Languages, ANumberKeepsItsDigitsAndItsForm) {
     const Wording words = read_wording(in_languages({"de", "en"}));
     EXPECT_EQ(words.number("-12.340").in(0), "\u221212,340");
     EXPECT_EQ(words.number("-12.340").in(1), "\u221212.340");
+    EXPECT_EQ(words.number("-0.008; -0.010 mg").in(0), "\u22120,008; \u22120,010 mg") << "each of several numbers";
+    EXPECT_EQ(words.number("2026-11-18").in(0), "2026-11-18");
     EXPECT_EQ(words.number("1.2E+3").in(0), "1,2\u00A0×\u00A010³");
     EXPECT_EQ(with_power_of_ten("-1.50E-12 nm"), "-1.50\u00A0×\u00A010⁻¹² nm");
     EXPECT_EQ(with_power_of_ten("EXA 5E, 2E+, E5"), "EXA 5E, 2E+, E5") << "names are no numbers";

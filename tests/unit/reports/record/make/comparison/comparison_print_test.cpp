@@ -54,6 +54,26 @@ TEST(ComparisonPrint, AScoreIsPrintedOnItsSideOfTheLimits) {
     }
 }
 
+TEST(ComparisonPrint, ADifferenceOfDecimalNumbersIsADecimalNumber) {
+    EXPECT_EQ(printed_difference_of(10.025, 10.1 - 10.025, 0.33, std::nullopt), "0.08") << 10.1 - 10.025;
+    EXPECT_EQ(printed_difference_of(10.025, 10.05 - 10.025, 0.33, std::nullopt), "0.02");
+    EXPECT_EQ(printed_difference_of(10.025, 9.9 - 10.025, 0.33, std::nullopt), "-0.12");
+    EXPECT_EQ(printed_difference_of(10.0, 0.0749999, 0.33, std::nullopt), "0.07") << "no decimal number is near";
+    EXPECT_EQ(printed_difference_of(1.0, 0.0, 0.33, std::nullopt), "0.00");
+}
+
+/// "p = 0.050, below 0.05" was printed of 0.0498.
+TEST(ComparisonPrint, AProbabilityIsPrintedOnItsSideOfTheLimits) {
+    EXPECT_EQ(printed_probability(0.0498), "0.0498");
+    EXPECT_EQ(printed_probability(0.0499), "0.0499");
+    EXPECT_EQ(printed_probability(0.02499), "0.02499");
+    EXPECT_EQ(printed_probability(0.0102), "0.0102");
+    EXPECT_EQ(printed_probability(0.80013), "0.80");
+    EXPECT_EQ(printed_probability_beside(0.09996, 0.1), "0.09996");
+    EXPECT_EQ(printed_probability_beside(1e-310, 0.1), "<1E-300");
+    EXPECT_EQ(printed_probability(std::nullopt), "");
+}
+
 TEST(ComparisonPrint, AnglesATurnApart) {
     for (const auto& [unit, turn] :
          {std::pair<const char*, double>{"deg", 360.0}, {"arcsec", 1296000.0}, {"rad", 6.2831853}}) {
