@@ -1506,7 +1506,6 @@ TEST(RotaryTableJob, WarnsOfKeysThatAreNotUsed) {
         EXPECT_EQ(job.warnings[0].code, k_warn_unused_value.code);
         EXPECT_THAT(gum::message(job.warnings[0]), HasSubstr(message));
     };
-    only_warning(with_key("\"plan\": {\"least_distance_mm\": 100}"), "least_distance_mm 100 mm is not used");
     only_warning(with_key("\"plan\": {\"keep_met_targets\": true}"), "keep_met_targets is not used");
     only_warning(with_key("\"plan\": {\"sight\": {\"acceptance_angle_deg\": 30}}"), "acceptance_angle_deg is not used");
     only_warning(with_key("\"plan\": {\"sight\": {\"facing\": [{\"reflector\": \"R1\", \"direction\": [1, 0, 0]}]}}"),
