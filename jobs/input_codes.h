@@ -82,7 +82,7 @@ inline constexpr InputCode k_too_few_at_angle{"GC-INPUT-0212", "fewer than 6 dis
 inline constexpr InputCode k_too_few_of_station{"GC-INPUT-0213", "fewer than 4 distances of a station"};
 inline constexpr InputCode k_too_few_reflectors{"GC-INPUT-0214", "fewer than 3 reflectors"};
 inline constexpr InputCode k_lengths_in_metres{"GC-INPUT-0215", "the lengths seem to be metres"};
-inline constexpr InputCode k_coordinates_in_metres{"GC-INPUT-0216", "the fixture coordinates seem to be metres"};
+inline constexpr InputCode k_coordinates_in_metres{"GC-INPUT-0216", "the coordinates seem to be metres"};
 inline constexpr InputCode k_home_not_measured{"GC-INPUT-0217", "the home angle is not among the measured angles"};
 inline constexpr InputCode k_covariance_not_symmetric{"GC-INPUT-0218", "the fixture covariance is not symmetric"};
 inline constexpr InputCode k_covariance_not_positive{"GC-INPUT-0219",
@@ -189,6 +189,8 @@ inline constexpr InputCode k_warn_roles_without_points{"GC-WARN-0019", "roles of
 inline constexpr InputCode k_warn_rounded_lengths{"GC-WARN-0026",
                                                   "lengths rounded by more than their stated uncertainty"};
 inline constexpr InputCode k_warn_rounded_alike{"GC-WARN-0027", "repeated lengths that are rounded alike"};
+inline constexpr InputCode k_warn_unlikely_uncertainty{"GC-WARN-0028",
+                                                       "an uncertainty that looks like one in another unit"};
 inline constexpr InputCode k_warn_unusual_coverage_factor{"GC-WARN-0021",
                                                           "a coverage factor that is perhaps a coverage probability"};
 
@@ -335,6 +337,7 @@ inline constexpr std::array k_input_codes{k_file_too_large,
                                           k_warn_range_of_no_point,
                                           k_warn_point_not_shown,
                                           k_warn_rounded_lengths,
-                                          k_warn_rounded_alike};
+                                          k_warn_rounded_alike,
+                                          k_warn_unlikely_uncertainty};
 
 }  // namespace gumcert::jobs

@@ -210,7 +210,12 @@ private:
             if (squares.size() >= k_fewest_for_scatter) {
                 pose_scale_ = within(std::sqrt(upper_median(squares)), upper);
             }
+            single_scale_ = within(scale_of_single_distances(), upper);
         }
+        // A repeatability that is given does not grow with what disturbs the visits: there the cautious choice hides nothing.
+        column_scale_ = adjustment_.measurement().table_repeatability.mode == RepeatabilityMode::given
+                            ? scale_within_visits()
+                            : used_scale_;
         for (std::size_t g = 0; g < visits_.size(); ++g) {
             if (tests_[g].is_controlled) {
                 result_.visits.push_back(
@@ -218,6 +223,22 @@ private:
             }
         }
     }
+
+    /// Robust standard deviation of the test values of single distances. Where the repeatability of the table is stated larger than
+    /// it is, visits scatter less than their weights say, and what the distances of one visit tell from each other does not.
+    [[nodiscard]] double scale_of_single_distances() const {
+        std::vector<double> sizes;
+        for (std::size_t g = 0; g < visits_.size(); ++g) {
+            for (Index i = 0; i < visits_.weighted(g).size(); ++i) {
+                if (const double own = visits_.own(g)(i, i); own > visits_.least(g)) {
+                    sizes.push_back(std::abs(visits_.weighted(g)[i]) / std::sqrt(own));
+                }
+            }
+        }
+        return sizes.empty() ? 1.0 : upper_median(sizes) / k_median_of_absolute_normal;
+    }
+    /// Of effects that differ between the distances of a visit, the cautious choice.
+    [[nodiscard]] double scale_within_visits() const { return std::max(used_scale_, single_scale_); }
 
     [[nodiscard]] GroupTest judged(GroupKind kind, double chi_square, int degrees_of_freedom, std::size_t count) const {
         return judgement_.judged(kind, chi_square, degrees_of_freedom, count);
@@ -232,8 +253,9 @@ private:
     }
 
     /// Smallest error with one column that is found with the power.
-    [[nodiscard]] double detectable(const GroupTest& test, double spread) const {
-        return (std::sqrt(test.critical_value) + k_deviate_of_power) * used_scale_ / std::sqrt(spread);
+    /// \param scale  of its test value
+    [[nodiscard]] double detectable(const GroupTest& test, double spread, double scale) const {
+        return (std::sqrt(test.critical_value) + k_deviate_of_power) * scale / std::sqrt(spread);
     }
 
     [[nodiscard]] GroupTest length_test(std::size_t g, const VisitTest& test) const {
@@ -241,7 +263,7 @@ private:
         GroupTest found = judged(GroupKind::visit_length, deviate * deviate, 1, visits_.size());
         place(found, g);
         found.estimate = test.error;
-        found.minimal_detectable = detectable(found, test.spread);
+        found.minimal_detectable = detectable(found, test.spread, used_scale_);
         return found;
     }
     [[nodiscard]] GroupTest pose_test(std::size_t g, const VisitTest& test) const {
@@ -396,11 +418,11 @@ private:
         if (!(spread > k_controlled * projection.weight)) {
             return std::nullopt;
         }
-        const double deviate = projection.weighted[0] / std::sqrt(spread) / used_scale_;
+        const double deviate = projection.weighted[0] / std::sqrt(spread) / column_scale_;
         GroupTest test = judged(kind, deviate * deviate, 1, count);
         test.estimate = projection.weighted[0] / spread;
         add_errors(test, column, test.estimate);
-        test.minimal_detectable = detectable(test, spread);
+        test.minimal_detectable = detectable(test, spread, column_scale_);
         return test;
     }
 
@@ -492,7 +514,8 @@ private:
                         effect[g] = -poses_[g].leftCols(3);
                     }
                 }
-                if (const std::optional<GroupTest> test = place_test(GroupKind::station_place, effect, count)) {
+                if (const std::optional<GroupTest> test =
+                        place_test(GroupKind::station_place, effect, count, column_scale_)) {
                     GroupTest placed = *test;
                     place(placed, passes[j][from].front());
                     placed.angle = GroupTest::k_none;  // the whole pass, not its first angle
@@ -502,15 +525,16 @@ private:
         }
         return best;
     }
+    /// \param least_scale  of the test value, beside that of poses
     [[nodiscard]] std::optional<GroupTest> place_test(GroupKind kind, const VisitEffects::Effect& effect,
-                                                      std::size_t count) const {
+                                                      std::size_t count, double least_scale) const {
         const VisitEffects::Projection projection = visits_.projection(effect, 3);
         const Inverted inverted = pseudo_inverse(projection.spread, k_controlled * projection.weight);
         if (inverted.rank == 0) {
             return std::nullopt;
         }
         // By the larger of both scales, as the angles of a station: neither a common error nor a free pose.
-        const double scale = std::max(used_scale_, pose_scale_);
+        const double scale = std::max(least_scale, pose_scale_);
         const VectorXd error = inverted.inverse * projection.weighted;
         GroupTest test = judged(kind, projection.weighted.dot(error) / (scale * scale), inverted.rank, count);
         test.estimate = error.norm();
@@ -593,7 +617,7 @@ private:
                     effect[g].row(i) = columns.row(i);
                 }
             }
-            if (std::optional<GroupTest> test = place_test(kind, effect, count)) {
+            if (std::optional<GroupTest> test = place_test(kind, effect, count, scale_within_visits())) {
                 describe(*test, seen[m], found[m]);
                 test->reflector = m;
                 take(best, {*test, [this, effect] { visits_.take_away(effect, 3); }});
@@ -692,9 +716,10 @@ private:
         if (chi_square < more * misfit_of_fixture_) {
             return std::nullopt;
         }
-        GroupTest test = judged(kind, chi_square / (used_scale_ * used_scale_), degrees_of_freedom, count);
+        const double scale = scale_within_visits();
+        GroupTest test = judged(kind, chi_square / (scale * scale), degrees_of_freedom, count);
         test.estimate = projection.weighted[0] / spread;
-        test.minimal_detectable = detectable(test, spread);
+        test.minimal_detectable = detectable(test, spread, scale);
         return test;
     }
 
@@ -773,8 +798,9 @@ private:
         // At one temperature it is the size of the fixture: then that is told, which names temperature and coefficient as well;
         // and where temperatures are so alike that chance decides which of both explains more.
         std::optional<GroupTest> test = test_of_one_size(GroupKind::expansion, effect, 1, k_clearly_more);
-        if (!test || (misfit_of_fixture_ > 0.0 &&
-                      test->chi_square < misfit_of_fixture_ / (used_scale_ * used_scale_) + k_more_than_chance)) {
+        if (!test ||
+            (misfit_of_fixture_ > 0.0 &&
+             test->chi_square < misfit_of_fixture_ / std::pow(scale_within_visits(), 2) + k_more_than_chance)) {
             return std::nullopt;
         }
         const double coefficient = adjustment_.measurement().expansion - test->estimate;
@@ -802,7 +828,7 @@ private:
         const VisitEffects::Projection projection = visits_.projection(effect, stations);
         const Inverted inverted = pseudo_inverse(projection.spread, k_controlled * projection.weight);
         const double more =
-            projection.weighted.dot(inverted.inverse * projection.weighted) / (used_scale_ * used_scale_) -
+            projection.weighted.dot(inverted.inverse * projection.weighted) / std::pow(scale_within_visits(), 2) -
             expansion.chi_square;
         return inverted.rank > 1 && more > k_share * expansion.chi_square &&
                judged(GroupKind::expansion, more, inverted.rank - 1, 1).suspicious;
@@ -954,7 +980,7 @@ private:
         if (inverted.rank == 0) {
             return std::nullopt;
         }
-        const double scale = std::max(used_scale_, pose_scale_);
+        const double scale = std::max(column_scale_, pose_scale_);
         const VectorXd error = inverted.inverse * projection.weighted;
         GroupTest test = judged(GroupKind::fixture_place, projection.weighted.dot(error) / (scale * scale),
                                 inverted.rank, order.size());
@@ -1025,8 +1051,8 @@ private:
             // An estimate without a test, for the documents: a drift that is not suspicious is stated with what would
             // have been found.
             if (spread > k_controlled * projection.weight) {
-                result_.drifts.push_back({station, projection.weighted[0] / spread, used_scale_ / std::sqrt(spread),
-                                          detectable(judged(GroupKind::drift, 0.0, 1, count), spread)});
+                result_.drifts.push_back({station, projection.weighted[0] / spread, column_scale_ / std::sqrt(spread),
+                                          detectable(judged(GroupKind::drift, 0.0, 1, count), spread, column_scale_)});
             }
         };
         for (std::size_t k = 0; k < all.each.size(); ++k) {
@@ -1071,7 +1097,7 @@ private:
         const VisitEffects::Projection projection = visits_.projection(columns);
         const Inverted inverted = pseudo_inverse(projection.spread, k_controlled * projection.weight);
         const VectorXd drifts = inverted.inverse * projection.weighted;
-        GroupTest test = judged(GroupKind::drift, projection.weighted.dot(drifts) / (used_scale_ * used_scale_),
+        GroupTest test = judged(GroupKind::drift, projection.weighted.dot(drifts) / (column_scale_ * column_scale_),
                                 std::max(inverted.rank, 1), count);
         test.estimate = drifts.norm() / std::sqrt(static_cast<double>(drifts.size()));
         for (std::size_t k = 0; k < columns.size(); ++k) {
@@ -1270,9 +1296,11 @@ private:
     std::vector<Index> reversal_;  ///< parameters of one reversal of all angles; empty: there is none
     std::vector<VisitTest> tests_;
     std::vector<std::vector<std::size_t>> sequences_;
-    double misfit_of_fixture_ = 0.0;              ///< of this round
-    double used_scale_ = 1.0, pose_scale_ = 1.0;  ///< of common errors, of poses
-    std::vector<bool> moved_;                     ///< by station: its angles were found to be others
+    double misfit_of_fixture_ = 0.0;  ///< of this round
+    double used_scale_ = 1.0, pose_scale_ = 1.0,
+           single_scale_ = 1.0;  ///< of common errors, of poses, of single distances
+    double column_scale_ = 1.0;  ///< of errors that successive visits have in common
+    std::vector<bool> moved_;    ///< by station: its angles were found to be others
     /// Cᵀ M C of angles that are off, with which each later round begins.
     struct IndexSpread {
         double value = 0.0;

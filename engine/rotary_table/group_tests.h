@@ -110,7 +110,9 @@ struct GroupTestOptions {
 /// The least probable visit, change, place, pair, scale, drift or step of the angles is taken away before the others are tested
 /// again. A reflector that stands elsewhere in a part of the turn is looked for between 36 bounds at most. Test
 /// values are divided by the robust scale of all visits where it differs from 1 by more than two of its standard
-/// deviations, at the limit towards 1. The scatter of stations and the succession of visits, which name no cause, are
+/// deviations, at the limit towards 1; what tells the distances of one visit apart by the larger of that scale and the one
+/// of single distances, because a repeatability that is given too large makes the visits scatter little, and not the
+/// distances of each. The scatter of stations and the succession of visits, which name no cause, are
 /// tested where nothing else is suspicious. Of the
 /// level each kind has its share, and within a kind it is divided by the number of its tests (Bonferroni); of drift a
 /// third each for all stations alike, each its own jointly, and single stations. A fixture whose misfit one scale

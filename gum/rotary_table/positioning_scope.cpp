@@ -50,11 +50,9 @@ double share_in_reversals(const engine::TableParameterModel& model, const engine
 }  // namespace
 
 PositioningScope positioning_scope(const engine::TableParameterModel& model) {
-    // A maximum grows with the noise of the deviations, and its uncertainty does not cover that growth (ADR 0017).
-    constexpr double k_largest_ratio = 0.25;
     const engine::PositioningAccuracy positioning = model.positioning();
     PositioningScope scope;
-    scope.largest_ratio = k_largest_ratio;
+    scope.largest_ratio = k_largest_u_against_E;
     scope.u_deviation = model.rms_position_uncertainty();
     // Pooled over targets and senses: one standard deviation of a few runs says little.
     double squares = 0.0;
@@ -72,7 +70,7 @@ PositioningScope positioning_scope(const engine::TableParameterModel& model) {
                                                  PositioningParameter::systematic_down}) {
         range = std::max(range, positioning[parameter].value_or(0.0));
     }
-    scope.stated = scope.u_deviation <= k_largest_ratio * range;
+    scope.stated = scope.u_deviation <= k_largest_u_against_E * range;
     // Of the variance of the runs, which is that of the table and that of the measurement together.
     scope.scatter_stated = std::pow(scope.u_deviation, 2) <= k_largest_scatter_share * std::pow(scope.s_runs, 2);
     scope.reversal_share = share_in_reversals(model, positioning, scope.u_deviation);

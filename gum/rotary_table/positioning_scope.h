@@ -22,6 +22,10 @@ namespace gumcert::gum {
 /// deviation is 1.6 times that of the table, and R still within its expanded uncertainty; with more it is not.
 inline constexpr double k_largest_scatter_share = 0.6;
 
+/// Standard uncertainty of one deviation against E above which no parameter of ISO 230-2 is stated: a maximum grows with the
+/// noise of the deviations, and its uncertainty does not cover that growth (ADR 0017).
+inline constexpr double k_largest_u_against_E = 0.25;
+
 /// Part of the variance of the reversals about their mean that may come from the measurement where B is stated although R and
 /// A are not. It is smaller, because a spread that is large by chance belongs to a largest reversal that is too large by
 /// chance: of reversals that are half noise hardly any pass.

@@ -1,11 +1,13 @@
 #include "jobs/rotary_table/rotary_table_environment.h"
 
+#include <algorithm>
 #include <array>
 #include <unordered_map>
 #include <utility>
 
 #include "gum/quantity/units.h"
 #include "jobs/rotary_table/rotary_table_limits.h"
+#include "text/numbers.h"
 #include "text/visible_text.h"
 
 namespace gumcert::jobs {
@@ -53,6 +55,8 @@ void read_stations(const RotaryTableReading& reading, JobFiles::File&& file, Mea
     if (!table) {
         return;
     }
+    constexpr double k_among_reflectors = 0.01;  // [m]
+    double farthest = 0.0;                       // coordinate of a station, [m]
     if (!job.has_lengths) {
         places.table = table;
         for (std::size_t row = 0; row < table->rows(); ++row) {
@@ -72,10 +76,18 @@ void read_stations(const RotaryTableReading& reading, JobFiles::File&& file, Mea
                                  table->number(row, x + k, k_station_coordinate).value_or(0.0) * k_millimetre;
                          }
                          (void)table->number_if_any(row, u, above_zero("mm"));
+                         farthest = std::max(farthest, position.cwiseAbs().maxCoeff());
                          if (station && !job.measurement.station_start.empty()) {
                              job.measurement.station_start[*station] = position;
                          }
                      });
+    // The origin lies on the rotary axis: where the fixture turns no station stands, and all of them least of all.
+    if (file.problems->refusals() == 0 && table->rows() > 0 && farthest < k_among_reflectors) {
+        file.problems->refuse(k_coordinates_in_metres, table->where(table->cell(0, x)),
+                              "no coordinate of a station reaches 10 mm; the largest is " +
+                                  text::shortest_plain(farthest / k_millimetre) + " mm",
+                              "coordinates are in millimetres", "multiply by 1000 if the values are metres");
+    }
 }
 
 void read_environment(const RotaryTableReading& reading, JobFiles::File&& file, const MeasuredPlaces& places) {
@@ -110,6 +122,14 @@ void read_environment(const RotaryTableReading& reading, JobFiles::File&& file, 
                 job.air[*station] = air;
             }
         });
+    constexpr double k_unlikely = 5.0;  // [K]
+    if (const double largest = count > 0 ? job.measurement.u_temperature.maxCoeff() : 0.0; largest > k_unlikely) {
+        file.problems->warn(
+            k_warn_unlikely_uncertainty, table->where(table->cell(0, u_temperature)),
+            "the largest standard uncertainty of a temperature is " + text::significant(largest, 2) + " K",
+            "the temperature of a fixture is known to better than " + text::shortest_plain(k_unlikely) + " K",
+            "check the unit: the column u_temperature_K is in kelvin");
+    }
     // A row that could not be read may be the one that seems to be missing.
     bool all_rows_read = table->is_complete();
     for (std::size_t row = 0; row < table->rows(); ++row) {

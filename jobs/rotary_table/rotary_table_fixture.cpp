@@ -174,6 +174,15 @@ FixtureNames read_fixture(const RotaryTableReading& reading, JobFiles::File&& fi
     }
     job.measurement.reflectors = names.reflectors.names();
     job.measurement.fixture = coordinates * k_millimetre;
+    // Of the best CMM it is some 0.1 µm. What is stated far below makes chance an accusation, and the set-up too well known.
+    constexpr double k_unlikely = 0.01;  // [µm]
+    if (const double largest = stated_u.maxCoeff() / k_micrometre; largest > 0.0 && largest < k_unlikely) {
+        file.problems->warn(
+            k_warn_unlikely_uncertainty, table.where(table.cell(0, u_x)),
+            "the largest standard uncertainty of a coordinate is " + text::significant(largest, 2) + " µm",
+            "a coordinate of a fixture is hardly known to " + text::shortest_plain(k_unlikely) + " µm",
+            "check the unit: the columns u_x_um, u_y_um and u_z_um are in micrometres");
+    }
     if (!u_is_elsewhere) {
         job.measurement.fixture_covariance = stated_u.array().square().matrix().asDiagonal();
     } else {

@@ -72,6 +72,16 @@ void read_length_uncertainty(const RotaryTableReading& reading, const JsonObject
     }
     uncertainty.scale_model = object.has("scale_u") ? engine::ScaleModel::prior : engine::ScaleModel::fixed;
     reader.read(uncertainty, {"resolution_um", "scale_u", "scale_model"});
+    constexpr double k_unlikely = 1e-9;  // [m]
+    const double at_1_m =
+        std::hypot(uncertainty.u_constant, uncertainty.u_proportional, uncertainty.resolution / std::sqrt(12.0));
+    if (constant && *constant >= k_least_u && at_1_m < k_unlikely) {
+        reading.problems.warn(k_warn_unlikely_uncertainty, object.where("u_constant_um"),
+                              "the standard uncertainty of a length of 1 m is " +
+                                  text::significant(at_1_m / gum::k_micrometre, 2) + " µm",
+                              "a length is hardly known to a nanometre",
+                              "check the unit: u_constant_um is in micrometres");
+    }
     if (uncertainty.scale_model == engine::ScaleModel::prior && !object.has("scale_u")) {
         object.refuse(k_scale_without_u, "scale_model", "scale_model is \"prior\" and scale_u is missing",
                       "a prior on the scale needs its standard uncertainty",

@@ -325,10 +325,7 @@ std::optional<gum::PlanRequest> read_plan(const JsonDocument& document, const Js
         }
     };
     reader.read(stated, {"least_distance_mm"});
-    if (const auto distance = reader.number("least_distance_mm")) {
-        request.least_distance = *stated.least_distance;
-        warn_without_region("least_distance_mm", "least_distance_mm " + text::shortest_plain(*distance) + " mm");
-    }
+    request.least_distance = stated.least_distance.value_or(request.least_distance);
     reader.read(stated, {"keep_met_targets"});
     if (request.keep_met_targets) {
         warn_without_region("keep_met_targets", "keep_met_targets");

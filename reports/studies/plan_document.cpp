@@ -118,9 +118,13 @@ std::string parameters_sentence(const Expected& expected) {
         text += " The deviation of one run will have a standard uncertainty of " +
                 gum::round_significant(parameters.u_deviation / gum::k_arcsec.si, 2) + "″, which makes " +
                 gum::percent(parameters.share_of_the_noise) + " % of the variance of the runs";
-        text += parameters.share_of_the_noise > gum::k_largest_scatter_share
-                    ? ": an evaluation will not state R and A, because they would be those of the measurement."
-                    : ".";
+        const std::string least =
+            gum::round_significant(parameters.u_deviation / gum::k_largest_u_against_E / gum::k_arcsec.si, 2);
+        text += (parameters.share_of_the_noise > gum::k_largest_scatter_share
+                     ? ": an evaluation will not state R and A, because they would be those of the measurement. It "
+                       "states E"
+                     : ". An evaluation states E, R and A") +
+                std::string(" of a table whose E is at least ") + least + "″, four times that uncertainty.";
     }
     return text;
 }

@@ -205,6 +205,23 @@ TEST_F(Plan, WhatCannotBeLeftOutIsNamedWithItsCure) {
     EXPECT_NE(text.out.find("not determined"), std::string::npos) << text.out;
 }
 
+TEST_F(Plan, StationsAmongTheReflectorsAreNamed) {
+    job_["plan"].erase("station_region");
+    const std::vector<std::string> lines = lines_of(bytes_of(k_example / "stations.csv"));
+    std::string stations = lines[0] + "\n" + lines[1].substr(0, lines[1].find(',')) + ",100,20,10,20\n";
+    for (std::size_t i = 2; i < lines.size(); ++i) {
+        stations += lines[i] + "\n";
+    }
+    write_bytes(folder() / "job" / "stations.csv", stations);
+    ASSERT_FALSE(planned().is_null());  // writes the job
+    Ended text = gumcert({"plan", file().string()});
+    ASSERT_EQ(text.code, 0) << text.err;
+    std::replace(text.out.begin(), text.out.end(), '\n', ' ');  // sentences go on in the next line
+    EXPECT_NE(text.out.find("station P1 — stands "), std::string::npos) << text.out;
+    EXPECT_EQ(text.out.find("station P2 — stands "), std::string::npos) << text.out;
+    EXPECT_NE(text.out.find("a table whose E is at least "), std::string::npos) << text.out;
+}
+
 TEST_F(Plan, ProposedStationsStandInTheRegionAndAreBetter) {
     // A bad layout: all stations close together.
     std::string stations = "station,x_mm,y_mm,z_mm\n";

@@ -91,6 +91,26 @@ StationCandidates station_candidates(const RotaryTableMeasurement& measurement, 
     return candidates;
 }
 
+std::vector<StationAmongReflectors> stations_among_reflectors(const RotaryTableMeasurement& measurement,
+                                                              double least_distance) {
+    std::vector<StationAmongReflectors> nearest(measurement.stations.size(), {0, 0, 0, k_infinite});
+    for (std::size_t i = 0; i < measurement.angles.size(); ++i) {
+        const Eigen::Matrix3d rotation = nominal_rotation(measurement, i);
+        for (std::size_t m = 0; m < measurement.reflectors.size(); ++m) {
+            const Eigen::Vector3d reflector =
+                rotation * measurement.fixture.row(static_cast<Eigen::Index>(m)).transpose();
+            for (std::size_t j = 0; j < nearest.size(); ++j) {
+                const double distance = (reflector - *measurement.station_start[j]).norm();
+                if (distance < nearest[j].distance) {
+                    nearest[j] = {j, m, i, distance};
+                }
+            }
+        }
+    }
+    std::erase_if(nearest, [&](const StationAmongReflectors& station) { return station.distance >= least_distance; });
+    return nearest;
+}
+
 namespace {
 
 /// The exchanges of single stations, round by round.

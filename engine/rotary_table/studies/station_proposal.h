@@ -42,6 +42,16 @@ struct StationCandidates {
 [[nodiscard]] StationCandidates station_candidates(const RotaryTableMeasurement& measurement,
                                                    const StationRegion& region);
 
+/// A station that stands nearer to a reflector than a station may, and where that reflector is nearest to it.
+struct StationAmongReflectors {
+    std::size_t station = 0, reflector = 0, angle = 0;
+    double distance = 0.0;  ///< [m]
+};
+/// \param measurement  with the positions of all stations
+/// \param least_distance  of a station from every reflector at every angle, [m]
+[[nodiscard]] std::vector<StationAmongReflectors> stations_among_reflectors(const RotaryTableMeasurement& measurement,
+                                                                            double least_distance);
+
 /// Runs numbered tasks, each once, on any number of threads; `worker` is below `workers`.
 struct ParallelTasks {
     unsigned workers = 1;

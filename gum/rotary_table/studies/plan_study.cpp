@@ -169,6 +169,26 @@ void leave_out_hidden(Setting& setting) {
 
 }  // namespace
 
+namespace {
+
+void note_stations_among_reflectors(Setting& setting) {
+    const RotaryTableMeasurement& layout = setting.layout;
+    const double least = setting.request.least_distance;
+    const auto millimetres = [](double length) { return round_significant(length / k_mm.si, 3) + " mm"; };
+    for (const engine::StationAmongReflectors& near : engine::stations_among_reflectors(layout, least)) {
+        setting.notes.push_back(message(
+            {"GC-PLAN-0005", "station " + layout.stations[near.station],
+             "stands " + millimetres(near.distance) + " from reflector " + layout.reflectors[near.reflector] + " at " +
+                 plain(layout.angles_deg[near.angle]) + "°, and not " + plain(least / k_mm.si) + " mm",
+             "a station clears every reflector at every angle by least_distance_mm",
+             "correct its position, which is in millimetres from the axis of the table, or state the least_distance_mm "
+             "of the instrument",
+             Severity::warning}));
+    }
+}
+
+}  // namespace
+
 std::vector<SightCount> sight_counts(const RotaryTableMeasurement& whole, const engine::LineOfSight& sight) {
     std::vector<SightCount> counts(whole.stations.size());
     for (const engine::LengthObservation& length : whole.lengths) {
@@ -238,6 +258,7 @@ Setting setting_of(RotaryTableRequest request, const PlanRequest& plan, const Pr
     }
     engine::predict_lengths(layout);
     leave_out_hidden(setting);
+    note_stations_among_reflectors(setting);
     setting.stochastic = engine::start_variances(layout.table_repeatability);
     setting.k = coverage_factor(setting.coverage_probability, k_infinite);
     setting.wanted = {setting.request.target_linear / setting.k, setting.request.target_angular / setting.k};

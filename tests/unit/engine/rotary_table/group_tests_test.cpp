@@ -78,6 +78,42 @@ TEST(GroupTests, LeaveSoundMeasurementsInPeace) {
     EXPECT_LE(alarms, 3) << told_of_all;
 }
 
+/// The repeatability of a data sheet: five times what the table has.
+RotaryTableMeasurement with_large_repeatability(std::uint64_t seed) {
+    RotaryTableMeasurement measurement = campaign(seed).measurement;
+    measurement.table_repeatability = {RepeatabilityMode::given, 0.75e-6, 7.5e-6, 2.5e-6};
+    return measurement;
+}
+
+TEST(GroupTests, LeaveReflectorsInPeaceWhereTheRepeatabilityIsGivenTooLarge) {
+    // All visits scatter little then. By their scale what tells the distances of a visit apart would be too large.
+    int told_by_the_scale_of_visits = 0;
+    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+        const GroupTests groups = tests_of(with_large_repeatability(seed));
+        EXPECT_LT(groups.scale, 0.6);
+        EXPECT_FALSE(groups.tests.front().suspicious) << told(groups);
+        for (const GroupTest& test : groups.tests) {
+            told_by_the_scale_of_visits += test.kind == GroupKind::reflector_at_angles &&
+                                                   test.chi_square / (groups.scale * groups.scale) > test.critical_value
+                                               ? 1
+                                               : 0;
+        }
+    }
+    EXPECT_GE(told_by_the_scale_of_visits, 2);
+}
+
+TEST(GroupTests, FindWhatIsWrongWhereTheRepeatabilityIsGivenTooLarge) {
+    RotaryTableMeasurement measurement = with_large_repeatability(5);
+    for (LengthObservation& length : measurement.lengths) {
+        length.length += length.station == 2 && length.reflector == 3 ? 1.5e-6 : 0.0;
+    }
+    const GroupTests groups = tests_of(measurement);
+    EXPECT_TRUE(groups.tests.front().suspicious) << told(groups);
+    EXPECT_EQ(groups.tests.front().kind, GroupKind::pair_length) << told(groups);
+    EXPECT_EQ(groups.tests.front().station, 2U);
+    EXPECT_EQ(groups.tests.front().reflector, 3U);
+}
+
 TEST(GroupTests, FindAVisitThatIsOff) {
     for (const double error : {5e-6, -50e-6, 500e-6}) {
         RotaryTableMeasurement measurement = campaign(31).measurement;

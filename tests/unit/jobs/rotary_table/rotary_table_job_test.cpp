@@ -454,6 +454,10 @@ const std::vector<BadInput>& bad_inputs() {
                       "reflector,x_mm,y_mm,z_mm,u_x_um,u_y_um,u_z_um\nR1,0.03,0.1,0,1,1,1\nR2,0.1,0,0.7,1,1,1\nR3,-0.2,"
                       "0.1,0,1,1,1\nR4,0,0,0.1,1,1,1\n"),
          k_coordinates_in_metres, "fixture.csv:2:4", "the largest is 0.7 mm"},
+        {"stations_in_metres",
+         with_content("stations.csv", "station,x_mm,y_mm,z_mm\nP1,0.5,-0.8,-0.3\nP2,0.6,0.7,1.9\n"),
+         k_coordinates_in_metres, "stations.csv:2:4",
+         "no coordinate of a station reaches 10 mm; the largest is 1.9 mm"},
 
         // ---- covariance of the fixture
         {"covariance_not_symmetric", with_covariance([](std::size_t i, std::size_t j) {
@@ -1470,6 +1474,29 @@ TEST(RotaryTableJob, RefusesALayoutThatIsNotComplete) {
     one(with("environment.csv", "P3,", "P4,"), k_unknown_station, "the station \"P3\" has no row in environment.csv");
 }
 
+TEST(RotaryTableJob, WarnsOfUncertaintiesThatLookLikeThoseInAnotherUnit) {
+    const auto warned = [](Files files, const std::string& file, const std::string& old_text,
+                           const std::string& new_text, JobUse use = JobUse::evaluate) {
+        replace_all(files.at(file), old_text, new_text);
+        std::vector<std::string> messages;
+        for (const gum::Diagnostic& warning : read(files, use).warnings) {
+            messages.push_back(warning.code + " " + gum::message(warning));
+        }
+        return messages;
+    };
+    const auto one = [&](const std::string& part) {
+        return ElementsAre(testing::AllOf(HasSubstr(k_warn_unlikely_uncertainty.code), HasSubstr(part)));
+    };
+    EXPECT_THAT(warned(small_campaign(), "fixture.csv", "0.4,0.5,0.4", "0.4,0.5,0.4"), IsEmpty());
+    EXPECT_THAT(warned(small_campaign(), "fixture.csv", ",0.", ",0.000"),
+                one("the columns u_x_um, u_y_um and u_z_um are in micrometres"));
+    EXPECT_THAT(warned(small_campaign(), "environment.csv", ",0.0", ",4"),
+                one("the column u_temperature_K is in kelvin"));
+    // Lengths that were measured have a step, which says more.
+    EXPECT_THAT(warned(small_layout(), "job.json", "\"u_constant_um\": 0.", "\"u_constant_um\": 0.000", JobUse::plan),
+                one("u_constant_um is in micrometres"));
+}
+
 TEST(RotaryTableJob, WarnsOfKeysThatAreNotUsed) {
     const auto only_warning = [](const std::function<void(Files&)>& change, const std::string& message) {
         Files files = small_campaign();
@@ -1479,7 +1506,6 @@ TEST(RotaryTableJob, WarnsOfKeysThatAreNotUsed) {
         EXPECT_EQ(job.warnings[0].code, k_warn_unused_value.code);
         EXPECT_THAT(gum::message(job.warnings[0]), HasSubstr(message));
     };
-    only_warning(with_key("\"plan\": {\"least_distance_mm\": 100}"), "least_distance_mm 100 mm is not used");
     only_warning(with_key("\"plan\": {\"keep_met_targets\": true}"), "keep_met_targets is not used");
     only_warning(with_key("\"plan\": {\"sight\": {\"acceptance_angle_deg\": 30}}"), "acceptance_angle_deg is not used");
     only_warning(with_key("\"plan\": {\"sight\": {\"facing\": [{\"reflector\": \"R1\", \"direction\": [1, 0, 0]}]}}"),

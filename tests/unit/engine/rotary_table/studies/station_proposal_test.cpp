@@ -83,6 +83,23 @@ TEST(StationProposal, CandidatesObeyTheRules) {
     }
 }
 
+TEST(StationProposal, StationsAmongTheReflectorsAreTold) {
+    RotaryTableMeasurement measurement = layout_of(CampaignPlan{});
+    EXPECT_TRUE(stations_among_reflectors(measurement, 0.2).empty());
+    // Within 1 mm of where the second reflector comes by at the fourth angle, and a position in metres.
+    measurement.station_start[1] =
+        nominal_rotation(measurement, 3) * measurement.fixture.row(1).transpose() + Eigen::Vector3d(0.0, 0.001, 0.0);
+    measurement.station_start[2] = *measurement.station_start[2] * 1e-3;
+    const std::vector<StationAmongReflectors> near = stations_among_reflectors(measurement, 0.2);
+    ASSERT_EQ(near.size(), 2U);
+    EXPECT_EQ(near[0].station, 1U);
+    EXPECT_EQ(near[0].reflector, 1U);
+    EXPECT_EQ(near[0].angle, 3U);
+    EXPECT_NEAR(near[0].distance, 0.001, 1e-12);
+    EXPECT_EQ(near[1].station, 2U);
+    EXPECT_TRUE(stations_among_reflectors(measurement, 0.0).empty());
+}
+
 TEST(StationProposal, ANarrowConeBecomesAboutAsGoodAsTheBestOfManyLayouts) {
     CampaignPlan plan;
     plan.angles_deg = synthetic::full_turn(12);
