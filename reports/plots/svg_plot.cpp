@@ -429,6 +429,7 @@ Plot in_powers_of_ten(Plot plot) {
         const AxisRange range = range_of(panel, 0.0);
         const AxisScale y_scale = AxisScale::of(std::max(std::abs(range.low), std::abs(range.high)));
         panel.y_label = y_scale.label(panel.y_label);
+        panel.strip_label = y_scale.label(panel.strip_label);
         panel.y_most = y_scale(panel.y_most);
         for (PlotLimit& limit : panel.limits) {
             limit.y = y_scale(limit.y);

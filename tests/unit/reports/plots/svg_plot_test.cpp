@@ -187,6 +187,11 @@ TEST(SvgPlot, LabelsOfAxesOfAnySizeStandInsideThePictureAndApart) {
     EXPECT_THAT(svg(tiny), HasSubstr(">Error / (10⁻¹² F)<"));
     EXPECT_THAT(svg(tiny), HasSubstr(">3.0<"));
     EXPECT_THAT(svg(tiny), HasSubstr(">x<")) << "an angle has no power";
+    // A strip below has the power of its panel, and says so.
+    tiny.strip_height = 28.0;
+    tiny.panels[0].strip = {tiny.panels[0].series[0]};
+    tiny.panels[0].strip_label = "U / F";
+    EXPECT_THAT(svg(tiny), HasSubstr(">U / (10⁻¹² F)<"));
 }
 
 TEST(SvgPlot, DegenerateScalesStillHaveAPlot) {
