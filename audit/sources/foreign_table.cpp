@@ -72,9 +72,6 @@ public:
         read.sensitivity = number(Column::sensitivity, units.sensitivity);
         read.contribution = number(Column::contribution, units.contribution);
         read.nu = number(Column::nu, none);
-        if (units.u.empty() && is_in_unit_of_contribution(read)) {
-            units.u = units.contribution;
-        }
         // What has no unit of its own has that of the row; of a row without one, that of what u was divided from.
         const std::string of_row = words(Column::unit);
         const std::string& of_stated = units.stated.empty() ? of_row : units.stated;
@@ -124,15 +121,6 @@ public:
     [[nodiscard]] bool lost_amount() const { return lost_amount_; }
 
 private:
-    /// Of "100,00002 | mm | 15 | 1 | | 15" below "Estimate | Unit | u | c | Unit | Contribution / nm": the first column of units is that of
-    /// the estimates, and u that of its contribution.
-    [[nodiscard]] bool is_in_unit_of_contribution(const AuditedRow& row) const {
-        const auto has_units = [this](Column column) { return heads_.unit_columns.contains(column); };
-        const bool are_of_estimate = has_units(Column::estimate) && !has_units(Column::u) && !has_units(Column::stated);
-        const bool is_plain = !row.sensitivity || std::abs(row.sensitivity->value) == 1.0;
-        return are_of_estimate && is_plain && !row.stated && row.u && row.contribution &&
-               std::abs(row.u->value) == std::abs(row.contribution->value);
-    }
     [[nodiscard]] const Cell* at(Column column) const {
         const auto position = heads_.columns.find(column);
         return position == heads_.columns.end() ? nullptr : cell_in(row_, position->second);

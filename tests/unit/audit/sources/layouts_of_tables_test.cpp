@@ -219,21 +219,6 @@ TEST(LayoutsOfTables, WhatIsNotUnderstoodOfHeadsIsNamed) {
         << "results are no budget";
 }
 
-/// Of several columns of units the first may be that of the estimates: u = 15 beside a contribution of 15 nm is none in mm.
-TEST(LayoutsOfTables, UnitsOfEstimatesAreNotThoseOfU) {
-    const auto table = [](const std::string& contribution) {
-        return "Quantity,Estimate,Unit,u,c,Unit,Contribution / "
-               "nm\nReference,100.00002,mm,15,1,,15\nDifference,0,nm,10,1,nm/nm,"
-               "10\nTemperature,0,K,0.030,1150,nm/K," +
-               contribution + "\nu_c,,,,,,39.0\nU (k = 2),,,,,,78\n";
-    };
-    const AuditReport sound = report_on(table("34.5"));
-    ASSERT_EQ(sound.results.size(), 1U);
-    EXPECT_FALSE(finds(sound, "S01")) << accused_of(sound);
-    EXPECT_NEAR(sound.results[0].recomputed.u_c, 38.9, 0.1);
-    EXPECT_TRUE(finds(report_on(table("345")), "K01"));
-}
-
 /// Rows in groups with a sum each: what a row is called stands beside its group, which stands once, or again.
 TEST(LayoutsOfTables, GroupsHaveTheirSumsBesideThem) {
     for (const char* const heads : {"Group,Source", "Category,Uncertainty source", "Quantity,Source",
