@@ -36,8 +36,6 @@ template class parser<json, CharacterInput>;
 template class parser<json, input_stream_adapter>;
 template class json_sax_dom_parser<json>;
 template class json_sax_dom_callback_parser<json>;
-template class iter_impl<json>;
-template class iter_impl<const json>;
 template class serializer<json>;
 template class serializer<ordered_json>;
 

@@ -29,8 +29,6 @@ extern template class parser<json, CharacterInput>;
 extern template class parser<json, input_stream_adapter>;
 extern template class json_sax_dom_parser<json>;
 extern template class json_sax_dom_callback_parser<json>;
-extern template class iter_impl<json>;
-extern template class iter_impl<const json>;
 extern template class serializer<json>;
 extern template class serializer<ordered_json>;
 
