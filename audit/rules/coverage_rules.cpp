@@ -80,6 +80,15 @@ void contribution_not_reproducible(const AuditSubject& subject, FindingCollector
         }
         finding.expected = say_number(in_words(std::abs(c) * row.used_u, at.of.unit));
         finding.actual = say_number(claimed_in_words(*row.contribution, at.of.unit));
+        // Without a column of u it is made of what is divided: a contribution that the words of the row give, or a column that is
+        // not read (how many readings there are), is asked about, as it is beside a column of u.
+        const std::optional<double> by_words = row.u ? std::nullopt : u_by_words(row);
+        const bool is_explained =
+            by_words && is_about(std::abs(row.contribution->value), std::abs(c) * *by_words, 0.01);
+        if (is_explained || (!row.u && !at.of.unread_columns.empty())) {
+            findings.add(std::move(finding), FindingSeverity::minor);
+            return;
+        }
         finding.correct = set_sensitivity(at.row, c);
         findings.add(std::move(finding));
     });

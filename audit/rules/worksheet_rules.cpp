@@ -179,7 +179,8 @@ std::optional<double> k_of_distribution(const AuditedRow& row) {
 /// Whether words of a row may say that its number is the distance of two limits.
 bool names_a_width(const AuditedRow& row) {
     return says(words_of_row(row) + " " + row.shape_text,
-                {"±", "+/-", "span", "range", "width", "breite", "spann", "weite"});
+                {"span of", "full width", "whole width", "total width", "full range", "spannweite", "spannbreite",
+                 "gesamtbreite", "volle breite"});
 }
 
 void divisor_against_label(const AuditSubject& subject, FindingCollector& findings) {
@@ -474,19 +475,28 @@ bool is_deviation(const WorksheetView& view, const SheetFormula& formula, const 
             says(label, {"standard deviation", "standardabweichung", "stdev", "std dev", " s of "}));
 }
 
-/// Whether words speak of pieces and have a number twice, as those of a row that has n readings of n pieces together: "stack of 10
+/// Whether words have a number twice, once of pieces, as those of a row that has n readings of n pieces together: "stack of 10
 /// sheets, 10 readings".
 bool counts_pieces(const std::string& words, const std::string& number) {
     constexpr std::string_view k_of_numbers = "0123456789.,";
+    constexpr std::array k_pieces = {"sheet", "layer", "swing",   "period", "oscillation", "turn",   "revolution",
+                                     "piece", "blatt", "blätter", "lage",   "schwing",     "umdreh", "stück"};
     std::size_t times = 0;
+    bool of_pieces = false;
     for (std::size_t at = words.find(number); at != std::string::npos; at = words.find(number, at + number.size())) {
         const std::size_t end = at + number.size();
         const bool begins = at == 0 || k_of_numbers.find(words[at - 1]) == std::string_view::npos;
         const bool ends = end == words.size() || words[end] < '0' || words[end] > '9';
-        times += begins && ends ? 1U : 0U;
+        if (begins && ends) {
+            ++times;
+            // Directly behind the number: "Anlage 5", "return after 5 min" and "Workpiece 5" count nothing.
+            const std::string behind = text::in_small_letters(words.substr(end));
+            of_pieces = of_pieces || std::any_of(k_pieces.begin(), k_pieces.end(), [&behind](const char* piece) {
+                            return behind.starts_with(" " + std::string(piece));
+                        });
+        }
     }
-    return times > 1 && says(words, {"stack", "sheet", "layer", "swing", "period", "oscillation", "turn", "revolution",
-                                     "piece", "stapel", "blatt", "blätter", "lage", "schwing", "umdreh", "stück"});
+    return times > 1 && of_pieces;
 }
 
 /// W04: s/n in place of s/√n, of a row that says how many readings there are.
@@ -559,6 +569,22 @@ std::vector<workbook::Area> ranges_read(const WorksheetView& view, const CellPla
     return ranges;
 }
 
+/// Whether numbers of a range that are no cells of another one are all made by formulas. Typed ones may be readings: s may be that
+/// of earlier readings, and the mean that of all (JCGM 100:2008, 4.2.4).
+bool has_formulas_only_beyond(const WorksheetView& view, const workbook::Area& whole, const workbook::CellRange& part) {
+    for (std::uint32_t row = whole.range.first.row; row <= whole.range.last.row; ++row) {
+        for (std::uint32_t column = whole.range.first.column; column <= whole.range.last.column; ++column) {
+            const bool is_part = row >= part.first.row && row <= part.last.row && column >= part.first.column &&
+                                 column <= part.last.column;
+            const CellPlace place{.sheet = whole.sheet, .address = {.row = row, .column = column}};
+            if (!is_part && view.value(place).kind == CellKind::number && view.formula_at(place) == nullptr) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
 /// W04 of a row whose u is s/√n in one formula: n counts a range that reaches beyond the readings, as over their mean and s below them.
 void counted_beyond_readings(const WorksheetView& view, const RowAt& at, FindingCollector& findings) {
     const SheetFormula* maker = at.is.u && !at.is.stated ? view.maker_of(at.is.u->place) : nullptr;
@@ -596,7 +622,8 @@ void counted_beyond_readings(const WorksheetView& view, const RowAt& at, Finding
                                 outer.last.column >= inner.last.column;
     const std::optional<std::size_t> n = counted_in(view, counted, with_words),
                                      of_readings = counted_in(view, readings, false);
-    if (!reaches_beyond || !n || !of_readings || *of_readings < 2 || *n <= *of_readings) {
+    if (!reaches_beyond || !n || !of_readings || *of_readings < 2 || *n <= *of_readings ||
+        !has_formulas_only_beyond(view, counted, inner)) {
         return;
     }
     const auto used = static_cast<double>(*n), right = static_cast<double>(*of_readings);

@@ -715,6 +715,11 @@ bool is_of_relative_uncertainty(std::string_view head) {
         }
     }
     const std::string whole = text::in_small_letters(std::string(head));
+    for (const std::string_view share : {"contrib", "share", "beitrag", "anteil"}) {
+        if (whole.find(share) != std::string::npos) {
+            return false;  // "Relative contribution to uncertainty"
+        }
+    }
     const bool is_relative = whole.find("relativ") != std::string::npos || whole.starts_with("rel. ") ||
                              whole.starts_with("rel ") || whole.starts_with("relat. ");
     return is_relative && (whole.find("uncert") != std::string::npos || whole.find("unc.") != std::string::npos ||
@@ -737,9 +742,7 @@ std::optional<Column> relative_column_of(std::string_view head, std::string_view
             return column_of(head.substr(word.size()));
         }
     }
-    // "u_rel / %", "RSU (%)"; "U_rel" is an expanded one.
-    const bool is_symbol_of_u = (head.starts_with('u') || head.starts_with("RSU")) && is_of_relative_uncertainty(head);
-    return is_relative_symbol(head) || is_symbol_of_u ? std::optional(Column::u) : std::nullopt;
+    return is_relative_symbol(head) ? std::optional(Column::u) : std::nullopt;
 }
 
 std::optional<Column> column_of(std::string_view head) {

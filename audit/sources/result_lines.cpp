@@ -757,11 +757,14 @@ std::optional<TakenStatement> take_first(const SheetView& sheet, const SheetView
     }
     const NumbersUnderHeads numbers =
         heads != nullptr && is_of_coverage(statement) ? numbers_under(sheet, *heads, row) : NumbersUnderHeads{};
-    // "Expanded | 2 | 0.032": what stands under a head that nobody knows may be a k, and is no U beside one under u.
+    // "Expanded | 2 | 0.032": what stands under a head that nobody knows may be a k, and is no U beside one under u. No k is larger
+    // than 5, or smaller than 1.
+    constexpr double k_least = 1.0, k_most = 5.0;
     const bool has_unknown =
         heads != nullptr && std::any_of(heads->unknown.begin(), heads->unknown.end(), [&](const Cell* head) {
             const Cell* cell = cell_in(row, head->address.column);
-            return cell != nullptr && sheet.number_with_unit(*cell).has_value();
+            const std::optional<NumberWithUnit> number = cell != nullptr ? sheet.number_with_unit(*cell) : std::nullopt;
+            return number && number->unit.empty() && number->number.value >= k_least && number->number.value <= k_most;
         });
     const bool has_amount = numbers.contains(Column::u) || numbers.contains(Column::contribution);
     const bool is_of_heads =

@@ -413,9 +413,11 @@ std::optional<Heads> heads_of(const SheetView& sheet, const SheetView::Row& row)
         if (*column == Column::unit) {
             owned.emplace_back(before, cell->address.column);
         }
-        // "U_i | k_i | u_i": of two symbols in one row of heads the large one is of what is divided.
+        // "U_i | k_i | u_i": of two symbols in one row of heads the large one is of what is divided. Behind a coefficient the small
+        // one is of the contribution: "Uncertainty u(x_i) | c_i | u(x_i) c_i".
         const Cell* of_u = *column == Column::u && held.starts_with('u') && heads.columns.contains(Column::u) &&
-                                   !heads.columns.contains(Column::stated)
+                                   !heads.columns.contains(Column::stated) &&
+                                   !heads.columns.contains(Column::sensitivity)
                                ? cell_in(row, heads.columns.at(Column::u))
                                : nullptr;
         if (of_u != nullptr && sheet.words(*of_u).starts_with('U')) {

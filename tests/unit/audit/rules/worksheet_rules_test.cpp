@@ -77,7 +77,7 @@ TEST(WorksheetRules, W02SeesTheKOfADistribution) {
         words.certificate_k = k;
         EXPECT_TRUE(findings_of("W02", test::subject_of(words)).empty());
         // Beside 2 k it is asked where the words may speak of the whole width; else U was divided twice.
-        for (const char* const of_width : {"span of the level", "U (±)", "Breite"}) {
+        for (const char* const of_width : {"span of the level", "full width of U", "Gesamtbreite"}) {
             AuditedRow width = row_of(k, 2.0 * k);
             width.quantity = of_width;
             const std::vector<AuditFinding> findings = findings_of("W02", test::subject_of(width));
@@ -85,6 +85,12 @@ TEST(WorksheetRules, W02SeesTheKOfADistribution) {
             EXPECT_FALSE(findings[0].effect) << of_width;
         }
         EXPECT_TRUE(findings_of("W02", test::subject_of(row_of(k, 2.0 * k))).at(0).effect);
+        for (const char* const of_half : {"Spannung des Normals", "zweites Multimeter", "erweiterte Messunsicherheit",
+                                          "range 10 V", "certificate \u00B1 1.10 V"}) {
+            AuditedRow half = row_of(k, 2.0 * k);
+            half.quantity = of_half;
+            EXPECT_TRUE(findings_of("W02", test::subject_of(half)).at(0).effect) << of_half;
+        }
     }
 }
 

@@ -256,7 +256,8 @@ TEST(LayoutsOfTables, RelativeUncertaintiesBesideUAreAskedAbout) {
         EXPECT_TRUE(tells(report, "has relative uncertainties and is not read")) << head;
         EXPECT_TRUE(report_on(table(head, "100.28 mg", "0.05 mg,0.0005")).results.empty()) << head;
     }
-    for (const char* const head : {"u", "u(x)", "Standard uncertainty", "relative humidity", "Relative to", "Value"}) {
+    for (const char* const head : {"u", "u(x)", "Standard uncertainty", "relative humidity", "Relative to", "Value",
+                                   "Relative contribution to uncertainty / %", "relativer Unsicherheitsbeitrag"}) {
         EXPECT_FALSE(is_of_relative_uncertainty(head)) << head;
     }
     // Beside u in one unit it is for the reader.

@@ -155,6 +155,12 @@ TEST(ResultLines, SayCoverageInTheirNamesAndWords) {
         "quantity,unit,reduced by,u,sensitivity\na,mg,2,0.03,1\nb,mg,1,0.04,1\nu_c,mg,,0.05\nExpanded,mg,2,0.100\n");
     ASSERT_EQ(beside.budgets.size(), 1U) << told(beside.not_read);
     EXPECT_EQ(beside.budgets[0].claims.U->value, 0.100);
+    // What is no k is U, and what stands under u then is k.
+    const ForeignTables under_result = tables_with(
+        "Quantity,Result / mm,u / "
+        "mm,c\nReference,100.002,0.012,1\nDrift,0.000,0.0115,1\nCombined,0.0166,,\nExpanded,0.033,2,\n");
+    ASSERT_EQ(under_result.budgets.size(), 1U) << told(under_result.not_read);
+    EXPECT_NE(under_result.budgets[0].claims.U->value, 2.0);
     const ForeignTables two = tables_with(rows + "U (k = 2),,0.104,mg\nk,,2.08\n");
     EXPECT_NE(told(two.not_read).find("which one holds?"), std::string::npos) << told(two.not_read);
     const ForeignTables words = tables_with(rows + "U,,0.104,mg\nk,,two\n");

@@ -46,6 +46,11 @@ TEST(TableHeads, OfALargeSymbolAreWhatIsDivided) {
     ASSERT_TRUE(alone);
     EXPECT_TRUE(alone->columns.contains(Column::u)) << "in capitals, as far as it is said";
     EXPECT_EQ(column_of("u, mm"), Column::u);
+    const std::optional<Heads> behind_c =
+        heads_in("Quantity,Unit,Uncertainty u(x_i),c_i,u(x_i) c_i\nNormal,mm,0.03,2,0.06\n");
+    ASSERT_TRUE(behind_c);
+    EXPECT_FALSE(behind_c->columns.contains(Column::stated));
+    EXPECT_LT(behind_c->columns.at(Column::u), behind_c->columns.at(Column::sensitivity));
 }
 
 TEST(TableHeads, OfUBehindACoefficientAreContributions) {

@@ -74,6 +74,20 @@ TEST(TableUnits, AreThoseOfHeadsAndCells) {
     EXPECT_EQ(shared_unit("µm", "mm"), "µm");
 }
 
+/// As in a table with a column of u, which says it as U26: s of 10 readings over √10, half of a step.
+TEST(TableUnits, WhatWordsOfARowGiveIsNoWrongContribution) {
+    const auto table = [](const std::string& row) {
+        return report_of(
+            "Source,Half-width or U,Unit,Distribution,Divisor,c,Contribution / "
+            "mm\nReference,0.024,mm,normal,2,1,0.012\n" +
+            row + "\nDrift,0.02,mm,rectangular,1.732,1,0.01155\nu_c,,,,,,0.0230\nU (k = 2),,,,,,0.046\n");
+    };
+    EXPECT_TRUE(critical_in(table("Repeatability (s of 10 readings),0.05,mm,normal,1,1,0.0158")).empty());
+    EXPECT_TRUE(critical_in(table("\"Repeatability, n = 10\",0.05,mm,normal,1,1,0.0158")).empty());
+    EXPECT_TRUE(critical_in(table("Mittel aus 10 Messungen,0.05,mm,normal,1,1,0.0158")).empty());
+    EXPECT_FALSE(critical_in(table("Temperature,0.27,mm,rectangular,1.732,1,0.0158")).empty()) << "a tenth of it";
+}
+
 TEST(TableUnits, OfACoefficientOfARowInPercentMayBeThatOfTheResult) {
     const auto table = [](const std::string& heads, const std::string& u, const std::string& contribution) {
         return report_of("Quantity," + heads +

@@ -139,7 +139,8 @@ TEST(WorksheetFindings, W04SeesACountBeyondTheReadings) {
         const double s = std::sqrt(5e-4 / 3.0);
         EXPECT_NEAR(findings[0].effect->alone.u_c, std::hypot(s / 2.0, 0.001), 1e-9) << u;
     }
-    for (const char* const u : {"=F7/SQRT(COUNT(F2:F5))", "=F7/SQRT(COUNTA(F2:F5))", "=F7/SQRT(3)", "=F7"}) {
+    for (const char* const u : {"=F7/SQRT(COUNT(F2:F5))", "=F7/SQRT(COUNTA(F2:F5))", "=F7/SQRT(3)", "=F7",
+                                "=STDEV(F2:F4)/SQRT(COUNT(F2:F5))"}) {  // s of earlier readings, and the mean of all
         EXPECT_TRUE(found(u).empty()) << u;
     }
 }
