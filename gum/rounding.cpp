@@ -177,6 +177,9 @@ double number_in(const std::string& text) {
     return number;
 }
 
+/// Numbers that differ behind it differ by the rounding of a computation.
+constexpr int k_most_compared_digits = 12;
+
 /// Whether two numbers as printed are in the order in which they are.
 bool has_order(double printed, double printed_other, double number, double other) {
     return (printed < printed_other) == (number < other) && (printed > printed_other) == (number > other);
@@ -258,7 +261,7 @@ std::string round_significant_beside(double value, int digits, const std::vector
         return std::all_of(limits.begin(), limits.end(),
                            [&](double limit) { return has_order(number_in(text), limit, value, limit); });
     };
-    for (int more = digits; more <= k_most_digits; ++more) {
+    for (int more = digits; more <= k_most_compared_digits; ++more) {
         std::string text = round_significant(value, more);
         if (stands(text)) {
             return text;
@@ -276,7 +279,7 @@ std::vector<std::string> round_in_order(const std::vector<double>& numbers, int 
         }
         return texts;
     };
-    for (int more = digits; more <= k_most_digits; ++more) {
+    for (int more = digits; more <= k_most_compared_digits; ++more) {
         std::vector<std::string> texts = texts_with(more);
         bool stands = true;
         for (std::size_t i = 1; i < numbers.size(); ++i) {

@@ -254,12 +254,23 @@ bool ProgramSentences::holds_another(const Found& found) const {
         if (kind == Kind::sentence || kind == Kind::list) {
             continue;
         }
-        for (std::size_t at = value.find("; "); at != std::string::npos; at = value.find("; ", at + 1)) {
+        // A value that somebody made of hundreds of such signs is taken as it is behind the first of them.
+        constexpr int k_most_looked_at = 16;
+        int looked_at = 0;
+        for (std::size_t at = value.find("; "); at != std::string::npos && looked_at < k_most_looked_at;
+             at = value.find("; ", at + 1), ++looked_at) {
             const std::string_view behind = std::string_view(value).substr(at + 2);
+            const bool may_begin_with_number = may_be_number(behind);
             const bool is_sentence = std::any_of(patterns_->begin(), patterns_->end(), [&](const Pattern& pattern) {
+                const Pieces& pieces = pattern.english;
+                if (pieces.literals.front().empty() &&
+                    (pieces.placeholders.empty() || pieces.placeholders.front().kind == Kind::text ||
+                     !may_begin_with_number)) {
+                    return false;  // what begins with a name may be anything
+                }
                 std::vector<std::string> values;
                 int steps = k_most_steps;
-                return pattern.letters <= behind.size() && match(pattern.english, behind, 0, values, steps);
+                return pattern.letters <= behind.size() && match(pieces, behind, 0, values, steps);
             });
             if (is_sentence) {
                 return true;

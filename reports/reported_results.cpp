@@ -101,7 +101,8 @@ std::vector<ReportedQuantity> quantities_of(const std::vector<Result>& results,
     std::vector<ReportedQuantity> all;
     for (const Result& result : results) {
         const auto point = points.find(result.point);
-        const bool is_named = !result.quantity.empty() && point != points.end();
+        const bool is_named =
+            !result.quantity.empty() && point != points.end() && point->second.results.contains(result.quantity);
         all.push_back({is_named ? result.quantity + "[" + point_in_words(point->second.name, words) + "]" : result.name,
                        &result.reported, result.point.empty() ? std::string() : result.quantity});
     }

@@ -827,7 +827,7 @@ void LaboratoryUse::warn_of_shared_standards(const JsonDocument& job) {
         const std::vector<std::string>& inputs = inputs_of_[id];
         if (inputs.size() > 1) {
             problems_.warn(k_laboratory_shared, job.where(child_pointer("/inputs", inputs[1])),
-                           text::all_of(inputs) + " draw on the standard " + text::in_quotes(id),
+                           text::listed(inputs) + " draw on the standard " + text::in_quotes(id),
                            "values of one certificate have errors in common, and are taken as independent here",
                            "state their correlation under \"correlations\"");
         }

@@ -289,6 +289,8 @@ TEST(RoundInOrder, KeepsTheOrderOfANumberAndItsLimits) {
     EXPECT_THAT(round_in_order({5.99149, 5.991465}, 4, &round_significant), ElementsAre("5.99149", "5.99146"))
         << "both, until they differ";
     EXPECT_THAT(round_in_order({2.0, 2.0}, 2, &round_significant), ElementsAre("2.0", "2.0"));
+    EXPECT_THAT(round_in_order({10.3 - 10.0, 0.3}, 2, &round_significant), ElementsAre("0.30", "0.30"))
+        << "rounding of the computation";
     EXPECT_THAT(round_in_order({10.04, 3.0, 10.0}, 1, &round_to_quantum), ElementsAre("10.04", "3.00", "10.00"));
 }
 

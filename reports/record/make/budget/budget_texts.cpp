@@ -62,7 +62,7 @@ std::vector<std::string> series_as_stated(std::span<const double> values, int le
 
 std::string printed_p_value(double p) {
     constexpr double k_least = 1e-4;
-    return p < k_least ? "< 0.0001" : rounded(p, 2);
+    return p < k_least ? "< 0.0001" : gum::round_significant_beside(p, 2, {0.05, 0.01});
 }
 
 Shown<std::optional<double>> shown_degrees_of_freedom(double nu) {

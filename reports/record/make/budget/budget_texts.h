@@ -21,7 +21,7 @@ namespace gumcert::reports {
 /// be more than 18, each has its own.
 /// \param least  decimals with which one of them is known to have been written
 [[nodiscard]] std::vector<std::string> series_as_stated(std::span<const double> values, int least = 0);
-/// Probability of a test; "< 0.0001" below that.
+/// Probability of a test, on its side of the levels 5 % and 1 %: 0.0498 and not 0.050; "< 0.0001" below that.
 [[nodiscard]] std::string printed_p_value(double p);
 /// Degrees of freedom, none where they are infinite, as a certificate prints them; "–" for NaN, where none can be stated.
 [[nodiscard]] Shown<std::optional<double>> shown_degrees_of_freedom(double nu);

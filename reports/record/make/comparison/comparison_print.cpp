@@ -3,7 +3,6 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <system_error>
 #include <vector>
@@ -111,13 +110,6 @@ std::string printed_difference(double difference, const std::optional<double>& U
     }
     return scale && *scale > 0.0 ? printed_value(difference, scale)
                                  : gum::round_significant(difference, k_digits_without_u);
-}
-
-std::string printed_difference_of(double size, double difference, const std::optional<double>& U,
-                                  const std::optional<double>& scale) {
-    constexpr double k_roundings = 4.0;  // of both numbers and their difference
-    const double lost = k_roundings * std::numeric_limits<double>::epsilon() * (std::abs(size) + std::abs(difference));
-    return printed_difference(gum::settled_decimal(difference, lost), U, scale);
 }
 
 std::string printed_uncertainty(const std::optional<double>& u) {

@@ -20,10 +20,6 @@ namespace gumcert::reports {
 /// four significant digits without one.
 [[nodiscard]] std::string printed_difference(double difference, const std::optional<double>& U,
                                              const std::optional<double>& scale);
-/// The same of a difference of numbers of a size, which as a difference of decimal numbers is the decimal one that was meant:
-/// 10.1 - 10.025 is 0.075, whose tie goes to 0.08, and not the 0.0749… that binary numbers leave.
-[[nodiscard]] std::string printed_difference_of(double size, double difference, const std::optional<double>& U,
-                                                const std::optional<double>& scale);
 /// Two significant digits at the decimal place that printed_value() gives a value with it; "" for nothing.
 [[nodiscard]] std::string printed_uncertainty(const std::optional<double>& u);
 /// A number that the job states: all its digits; "" for nothing.

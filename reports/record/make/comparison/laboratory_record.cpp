@@ -228,12 +228,11 @@ reports::ConsensusCheck consensus_record(const gum::ConsensusCheck& from) {
     return check;
 }
 
-reports::PairEquivalence pair_record(const gum::ComparisonScheme& scheme, const gum::PairEquivalence& from,
-                                     double assigned_value) {
+reports::PairEquivalence pair_record(const gum::ComparisonScheme& scheme, const gum::PairEquivalence& from) {
     reports::PairEquivalence pair;
     pair.first = scheme.participants[from.first].id;
     pair.second = scheme.participants[from.second].id;
-    pair.d = {from.d, printed_difference_of(assigned_value, from.d, from.U, std::nullopt)};
+    pair.d = {from.d, printed_difference(from.d, from.U, std::nullopt)};
     pair.u = from.u;
     pair.U = shown(from.U, printed_uncertainty);
     pair.En = shown(from.en, printed_en);
@@ -346,7 +345,7 @@ ComparisonItemEvaluation item_record(const gum::ComparisonScheme& scheme, const 
         item.consensus = consensus_record(*from.consensus);
     }
     for (const gum::PairEquivalence& pair : from.pairs) {
-        item.pairs.push_back(pair_record(scheme, pair, from.value));
+        item.pairs.push_back(pair_record(scheme, pair));
     }
     return item;
 }
@@ -360,7 +359,7 @@ void add_scores(const gum::ScoredResult& from, const ComparisonItemEvaluation& i
     const auto shown_difference = [&](const std::optional<double>& D) {
         return reports::Shown<std::optional<double>>{D, D ? printed_difference(*D, U_D, scale) : ""};
     };
-    point.D = {from.difference, printed_difference_of(from.assigned_value, from.difference, U_D, scale)};
+    point.D = {from.difference, printed_difference(from.difference, U_D, scale)};
     point.u_D = from.u_difference;
     point.U_D = shown(U_D, printed_uncertainty);
     point.D_low = shown_difference(from.low);

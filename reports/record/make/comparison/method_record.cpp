@@ -70,9 +70,6 @@ ComparisonPoint point_record(const gum::ComparedPoint& from, const gum::MethodSc
     }
     point.correlation = score.correlation;
     put_pair(score.difference, score.U_difference, point.D, point.U_D);
-    if (score.U_difference > 0.0) {
-        point.D.text = printed_difference_of(from.reference_value, score.difference, score.U_difference, std::nullopt);
-    }
     point.u_D = score.u_difference;
     point.En = shown(score.en, printed_en);
     point.zeta = shown(score.zeta, printed_z);

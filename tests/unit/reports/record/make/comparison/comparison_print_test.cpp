@@ -54,14 +54,6 @@ TEST(ComparisonPrint, AScoreIsPrintedOnItsSideOfTheLimits) {
     }
 }
 
-TEST(ComparisonPrint, ADifferenceOfDecimalNumbersIsADecimalNumber) {
-    EXPECT_EQ(printed_difference_of(10.025, 10.1 - 10.025, 0.33, std::nullopt), "0.08") << 10.1 - 10.025;
-    EXPECT_EQ(printed_difference_of(10.025, 10.05 - 10.025, 0.33, std::nullopt), "0.02");
-    EXPECT_EQ(printed_difference_of(10.025, 9.9 - 10.025, 0.33, std::nullopt), "-0.12");
-    EXPECT_EQ(printed_difference_of(10.0, 0.0749999, 0.33, std::nullopt), "0.07") << "no decimal number is near";
-    EXPECT_EQ(printed_difference_of(1.0, 0.0, 0.33, std::nullopt), "0.00");
-}
-
 /// "p = 0.050, below 0.05" was printed of 0.0498.
 TEST(ComparisonPrint, AProbabilityIsPrintedOnItsSideOfTheLimits) {
     EXPECT_EQ(printed_probability(0.0498), "0.0498");
