@@ -67,7 +67,8 @@ Eigen::Matrix3d smallest_rotation(const Eigen::Vector3d& from, const Eigen::Vect
         const Eigen::Vector3d across = a.unitOrthogonal();
         return 2.0 * across * across.transpose() - Eigen::Matrix3d::Identity();
     }
-    const double w = std::sqrt(2.0 * (1.0 + cosine));  // twice the cosine of half the angle
+    // Twice the cosine of half the angle. Of nearly opposite directions 1 + cosine has few digits left.
+    const double w = cosine < -0.5 ? (a + b).norm() : std::sqrt(2.0 * (1.0 + cosine));
     Eigen::Quaterniond turn;
     turn.vec() = a.cross(b) * (1.0 / w);
     turn.w() = 0.5 * w;
