@@ -167,10 +167,6 @@ void leave_out_hidden(Setting& setting) {
     setting.layout = engine::with_distances(setting.whole, engine::seen_distances(setting.whole, *setting.sight));
 }
 
-}  // namespace
-
-namespace {
-
 void note_stations_among_reflectors(Setting& setting) {
     const RotaryTableMeasurement& layout = setting.layout;
     const double least = setting.request.least_distance;
