@@ -85,11 +85,10 @@ Pieces pieces_of(const std::string& id, const std::string& pattern) {
 }
 
 /// For each pattern that forms of number make of one, the names of the values that are 1 in it.
-std::vector<std::set<std::string>> which_are_one(const json& english) {
+/// \param counted  the names that its English text has forms of
+std::vector<std::set<std::string>> which_are_one(const std::vector<std::string>& counted) {
     std::vector<std::set<std::string>> all(1);
-    const std::vector<std::string> names =
-        english.is_string() ? names_with_forms(english.get<std::string>()) : std::vector<std::string>();
-    for (const std::string& name : names) {
+    for (const std::string& name : counted) {
         for (std::size_t i = all.size(); i-- > 0;) {
             std::set<std::string> with_it = all[i];
             with_it.insert(name);
@@ -207,7 +206,7 @@ ProgramSentences::ProgramSentences(const json& catalogue) {
         const json& in_english = texts.at("en");
         const std::vector<std::string> counted =
             in_english.is_string() ? names_with_forms(in_english.get<std::string>()) : std::vector<std::string>();
-        for (const std::set<std::string>& ones : which_are_one(in_english)) {
+        for (const std::set<std::string>& ones : which_are_one(counted)) {
             Pattern pattern{.id = id, .english = {}, .translations = {}};
             for (const auto& [language, text] : texts.items()) {
                 if (!text.is_string()) {
