@@ -499,25 +499,43 @@ bool counts_pieces(const std::string& words, const std::string& number) {
     return times > 1 && of_pieces;
 }
 
-/// W04: s/n in place of s/√n, of a row that says how many readings there are.
-void divided_by_n(const WorksheetView& view, const RowAt& at, FindingCollector& findings) {
+/// A standard deviation of readings over something, as one formula that makes u of a row.
+struct DividedDeviation {
+    const SheetFormula* maker = nullptr;
+    const FormulaNode* spread = nullptr;
+    const FormulaNode* by = nullptr;
+};
+
+/// Nothing where u is stated or 0, or made in another way.
+std::optional<DividedDeviation> divided_deviation(const WorksheetView& view, const RowAt& at) {
     const SheetFormula* maker = at.is.u && !at.is.stated ? view.maker_of(at.is.u->place) : nullptr;
     if (maker == nullptr || !(at.is.used_u > 0.0)) {
-        return;
+        return std::nullopt;
     }
     const FormulaNode& quotient = maker->formula.nodes[maker->formula.root()];
     if (quotient.kind != FormulaNodeKind::divide || quotient.children != 2) {
-        return;
+        return std::nullopt;
     }
     const auto operands = maker->formula.children_of(quotient);
-    const FormulaNode& by = maker->formula.nodes[operands[1]];
+    const FormulaNode &spread = maker->formula.nodes[operands[0]], &by = maker->formula.nodes[operands[1]];
+    return is_deviation(view, *maker, spread) ? std::optional(DividedDeviation{maker, &spread, &by}) : std::nullopt;
+}
+
+/// W04: s/n in place of s/√n, of a row that says how many readings there are.
+void divided_by_n(const WorksheetView& view, const RowAt& at, FindingCollector& findings) {
+    const std::optional<DividedDeviation> made = divided_deviation(view, at);
+    if (!made) {
+        return;
+    }
+    const SheetFormula* maker = made->maker;
+    const FormulaNode& by = *made->by;
     const std::optional<CellPlace> cell = view.cell_of(*maker, by);
     const CellValue value = cell ? view.value(*cell) : CellValue{};
     const double n = by.kind == FormulaNodeKind::number ? by.number
                      : value.kind == CellKind::number   ? value.number
                                                         : 0.0;
     const bool is_count = (at.is.n && static_cast<double>(*at.is.n) == n) || at.is.used_nu + 1.0 == n;
-    if (!(n >= 2.0) || !is_count || !is_deviation(view, *maker, maker->formula.nodes[operands[0]])) {
+    if (!(n >= 2.0) || !is_count) {
         return;
     }
     AuditFinding finding = finding_at(
@@ -587,19 +605,12 @@ bool has_formulas_only_beyond(const WorksheetView& view, const workbook::Area& w
 
 /// W04 of a row whose u is s/√n in one formula: n counts a range that reaches beyond the readings, as over their mean and s below them.
 void counted_beyond_readings(const WorksheetView& view, const RowAt& at, FindingCollector& findings) {
-    const SheetFormula* maker = at.is.u && !at.is.stated ? view.maker_of(at.is.u->place) : nullptr;
-    if (maker == nullptr || !(at.is.used_u > 0.0)) {
+    const std::optional<DividedDeviation> made = divided_deviation(view, at);
+    if (!made || !is_call(*made->by, {"SQRT"}) || made->by->children != 1) {
         return;
     }
-    const FormulaNode& quotient = maker->formula.nodes[maker->formula.root()];
-    if (quotient.kind != FormulaNodeKind::divide || quotient.children != 2) {
-        return;
-    }
-    const auto operands = maker->formula.children_of(quotient);
-    const FormulaNode &spread = maker->formula.nodes[operands[0]], &root = maker->formula.nodes[operands[1]];
-    if (!is_deviation(view, *maker, spread) || !is_call(root, {"SQRT"}) || root.children != 1) {
-        return;
-    }
+    const SheetFormula* maker = made->maker;
+    const FormulaNode &spread = *made->spread, &root = *made->by;
     const FormulaNode& count = maker->formula.nodes[maker->formula.children_of(root)[0]];
     const bool with_words = is_call(count, {"COUNTA"});
     if (!with_words && !is_call(count, {"COUNT"})) {
