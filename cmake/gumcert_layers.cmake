@@ -151,8 +151,8 @@ set(GUMCERT_EDGES_app_cli                            text encoding system gum/qu
 set(GUMCERT_THIRD_PARTY_text)
 set(GUMCERT_THIRD_PARTY_encoding                           fcntl.h linux/openat2.h openssl sys/stat.h sys/syscall.h
                                                            unistd.h)
-set(GUMCERT_THIRD_PARTY_system                             fcntl.h gnu link.h linux stdlib.h sys/file.h sys/prctl.h
-                                                           sys/resource.h sys/stat.h sys/syscall.h sys/types.h
+set(GUMCERT_THIRD_PARTY_system                             fcntl.h gnu libxml link.h linux openssl stdlib.h sys/file.h
+                                                           sys/prctl.h sys/resource.h sys/stat.h sys/syscall.h sys/types.h
                                                            sys/utsname.h unistd.h)
 set(GUMCERT_THIRD_PARTY_gum_quantity                       Eigen)
 set(GUMCERT_THIRD_PARTY_json                               nlohmann)

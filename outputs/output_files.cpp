@@ -24,6 +24,7 @@
 #include "gum/quantity/diagnostic.h"
 #include "outputs/output_set.h"
 #include "system/cleanup.h"
+#include "system/end_of_memory.h"
 #include "system/folder_lock.h"
 #include "system/temporary.h"
 
@@ -397,6 +398,7 @@ public:
 
     void put_in_place() {
         const system::CleanupLock to_the_end = system::hold_cleanup();
+        system::require_memory();
         if (parts_.size() == 1) {
             if (::rename(parts_[0]->path().c_str(), places_[0].c_str()) != 0) {
                 refuse(places_[0], "cannot be put in place: " + reason());

@@ -5,6 +5,7 @@
 #include <libxml/xmlIO.h>
 
 #include <climits>
+#include <new>
 #include <optional>
 #include <stdexcept>
 #include <string_view>
@@ -87,6 +88,9 @@ XmlDocument parse_xml(const Bytes& bytes, const std::string& name) {
     // A prefix without its namespace is well-formed XML 1.0, but means nothing to those who read by namespaces.
     if (document == nullptr || parser->nsWellFormed == 0 || xmlDocGetRootElement(document.get()) == nullptr) {
         const xmlError* error = xmlGetLastError();
+        if (parser == nullptr || (error != nullptr && error->code == XML_ERR_NO_MEMORY)) {
+            throw std::bad_alloc();  // says nothing of the document
+        }
         const std::string line = error == nullptr ? "" : ":" + std::to_string(error->line);
         xmlResetLastError();
         refuse(name + line, "not well-formed XML", "a digital certificate is XML 1.0 with namespaces",

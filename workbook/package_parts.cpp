@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <new>
 #include <utility>
 
 #include "gum/quantity/diagnostic.h"
@@ -59,6 +60,13 @@ struct CloseEntry {
     void operator()(zip_file_t* file) const { zip_fclose(file); }
 };
 
+/// Memory that libzip could not have says nothing of the archive.
+void tell_memory(int code_of_libzip) {
+    if (code_of_libzip == ZIP_ER_MEMORY) {
+        throw std::bad_alloc();
+    }
+}
+
 }  // namespace
 
 struct PackageParts::Archive {
@@ -86,13 +94,18 @@ PackageParts::PackageParts(std::string_view bytes, std::string where) : archive_
             zip_source_free(source);
         }
     }
+    const int code = zip_error_code_zip(&error);
     zip_error_fini(&error);
     if (!archive_->zip) {
+        tell_memory(code);
         throw damaged(archive_->where, "the archive cannot be opened");
     }
     const zip_int64_t count = zip_get_num_entries(archive_->zip.get(), 0);
     for (zip_uint64_t i = 0; i < static_cast<zip_uint64_t>(std::max<zip_int64_t>(count, 0)); ++i) {
         const char* const name = zip_get_name(archive_->zip.get(), i, ZIP_FL_ENC_RAW);
+        if (name == nullptr) {
+            tell_memory(zip_error_code_zip(zip_get_error(archive_->zip.get())));
+        }
         if (name == nullptr || *name == '\0') {
             throw damaged(archive_->where, "a part without a name");
         }
@@ -131,6 +144,7 @@ std::string PackageParts::read(const std::string& name) {
     }
     const std::unique_ptr<zip_file_t, CloseEntry> file(zip_fopen_index(archive_->zip.get(), found->second, 0));
     if (!file) {
+        tell_memory(zip_error_code_zip(zip_get_error(archive_->zip.get())));
         throw damaged(part, "a part that cannot be opened");
     }
     std::string bytes;
@@ -138,6 +152,7 @@ std::string PackageParts::read(const std::string& name) {
     for (;;) {
         const zip_int64_t count = zip_fread(file.get(), buffer.data(), buffer.size());
         if (count < 0) {
+            tell_memory(zip_error_code_zip(zip_file_get_error(file.get())));
             throw damaged(part, "a part that cannot be unpacked");
         }
         if (count == 0) {

@@ -10,6 +10,7 @@
 #include <exception>
 #include <memory>
 #include <mutex>
+#include <new>
 
 #include "gum/quantity/diagnostic.h"
 #include "text/markup_size.h"
@@ -225,7 +226,7 @@ void read_xml_events(std::string_view bytes, const std::string& where, XmlHandle
     const std::unique_ptr<xmlParserCtxt, FreeXmlParser> parser(
         xmlCreateMemoryParserCtxt(bytes.data(), static_cast<int>(bytes.size())));
     if (!parser) {
-        throw gum::InputError(not_well_formed_part(where, "the parser cannot be started"));
+        throw std::bad_alloc();  // the parser cannot be started: there is no other reason
     }
     XmlReading reading;
     reading.parser = parser.get();
@@ -242,8 +243,12 @@ void read_xml_events(std::string_view bytes, const std::string& where, XmlHandle
     if (reading.failure) {
         std::rethrow_exception(reading.failure);
     }
+    const xmlError* const error = xmlCtxtGetLastError(parser.get());
+    if (parser->errNo == XML_ERR_NO_MEMORY || (error != nullptr && error->code == XML_ERR_NO_MEMORY)) {
+        throw std::bad_alloc();  // says nothing of the part
+    }
     if (parser->wellFormed == 0) {
-        throw gum::InputError(not_well_formed_by(xmlCtxtGetLastError(parser.get()), where));
+        throw gum::InputError(not_well_formed_by(error, where));
     }
 }
 

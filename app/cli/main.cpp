@@ -33,6 +33,7 @@
 #include "encoding/openssl_configuration.h"
 #include "evaluation/audit_files.h"
 #include "evaluation/limits.h"
+#include "system/end_of_memory.h"
 
 namespace {
 
@@ -109,9 +110,7 @@ ExitCode dispatch(int argc, char** argv, Arguments& a) {
     }
     if (a.command == "check") {
         const bool certificates = a.files.front() == "dcc";
-        if (certificates) {
-            a.files.erase(a.files.begin());
-        }
+        a.files.erase(a.files.begin(), a.files.begin() + (certificates ? 1 : 0));
         if (a.files.empty()) {
             refuse_usage("check dcc", "no file", "gumcert check dcc FILE", "name the digital certificates");
         }
@@ -163,6 +162,7 @@ int main(int argc, char** argv) {
     // Without the signal a write beyond the limit of file sizes fails like one to a full disk: reported and cleaned up.
     (void)std::signal(SIGXFSZ, SIG_IGN);
 #endif
+    system::prepare_for_end_of_memory();
     encoding::read_no_configuration_of_openssl();
     Arguments arguments;
     // Looked for before parsing: messages about a faulty command line, too, have the form that it asks for.

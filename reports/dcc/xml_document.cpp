@@ -9,9 +9,10 @@
 
 #include <algorithm>
 #include <array>
+#include <exception>
 #include <memory>
 #include <mutex>
-#include <optional>
+#include <new>
 
 #include "gum/quantity/diagnostic.h"
 #include "reports/dcc/document_limits.h"
@@ -64,14 +65,16 @@ struct Reading {
     std::vector<XmlElement*> open;  ///< from the root to the innermost; children of an open element do not move
     std::size_t elements = 0;
     std::vector<XmlNote>* notes = nullptr;
-    std::optional<gum::Diagnostic> refusal;
+    std::exception_ptr failure;
 
-    void refuse(gum::Diagnostic diagnostic) {
-        if (!refusal) {
-            refusal = std::move(diagnostic);
+    void stop(std::exception_ptr with) {
+        if (!failure) {
+            failure = std::move(with);
         }
         xmlStopParser(parser);
     }
+
+    void refuse(gum::Diagnostic diagnostic) { stop(std::make_exception_ptr(gum::InputError(std::move(diagnostic)))); }
 
     [[nodiscard]] std::string here() const {
         return file + ":" + std::to_string(std::max(xmlSAX2GetLineNumber(parser), 0)) + ":" +
@@ -79,16 +82,21 @@ struct Reading {
     }
 };
 
-Reading& reading_of(void* data) {
-    return *static_cast<Reading*>(data);
-}
-
-void on_start(void* data, const xmlChar* name, const xmlChar*, const xmlChar* uri, int, const xmlChar**,
-              int attribute_count, int, const xmlChar** attributes) {
-    Reading& reading = reading_of(data);
-    if (reading.refusal) {
+/// What a callback does, as long as nothing has failed.
+template <typename Work>
+void proceed(void* data, const Work& work) {
+    Reading& reading = *static_cast<Reading*>(data);
+    if (reading.failure) {
         return;
     }
+    try {
+        work(reading);
+    } catch (...) {
+        reading.stop(std::current_exception());
+    }
+}
+
+void begin_element(Reading& reading, std::string name) {
     if (reading.open.size() >= k_largest_depth || reading.elements >= k_most_elements) {
         const bool deep = reading.open.size() >= k_largest_depth;
         reading.refuse({.code = deep ? "GC-DCC-0003" : "GC-DCC-0004",
@@ -105,55 +113,68 @@ void on_start(void* data, const xmlChar* name, const xmlChar*, const xmlChar* ur
     }
     reading.has_root = true;
     reading.open.push_back(element);
-    element->name = prefixed(bytes_of(uri), bytes_of(name));
+    element->name = std::move(name);
     element->line = static_cast<std::size_t>(std::max(xmlSAX2GetLineNumber(reading.parser), 0));
     element->column = static_cast<std::size_t>(std::max(xmlSAX2GetColumnNumber(reading.parser), 0));
-    for (int i = 0; i < attribute_count; ++i) {  // five pointers each: name, prefix, namespace, value, end of the value
-        const xmlChar** const at = attributes + static_cast<std::ptrdiff_t>(5) * i;
-        const auto* const first = reinterpret_cast<const char*>(at[3]);
-        const auto* const last = reinterpret_cast<const char*>(at[4]);
-        element->attributes.emplace_back(prefixed(bytes_of(at[2]), bytes_of(at[0])),
-                                         attribute_value({first, static_cast<std::size_t>(last - first)}));
-    }
+}
+
+void on_start(void* data, const xmlChar* name, const xmlChar*, const xmlChar* uri, int, const xmlChar**,
+              int attribute_count, int, const xmlChar** attributes) {
+    proceed(data, [&](Reading& reading) {
+        begin_element(reading, prefixed(bytes_of(uri), bytes_of(name)));
+        for (int i = 0; i < attribute_count && !reading.failure; ++i) {
+            // Five pointers each: name, prefix, namespace, value, end of the value.
+            const xmlChar** const at = attributes + static_cast<std::ptrdiff_t>(5) * i;
+            const auto* const first = reinterpret_cast<const char*>(at[3]);
+            const auto* const last = reinterpret_cast<const char*>(at[4]);
+            reading.open.back()->attributes.emplace_back(
+                prefixed(bytes_of(at[2]), bytes_of(at[0])),
+                attribute_value({first, static_cast<std::size_t>(last - first)}));
+        }
+    });
 }
 
 void on_end(void* data, const xmlChar*, const xmlChar*, const xmlChar*) {
-    Reading& reading = reading_of(data);
-    if (!reading.refusal && !reading.open.empty()) {
-        reading.open.pop_back();
-    }
+    proceed(data, [](Reading& reading) {
+        if (!reading.open.empty()) {
+            reading.open.pop_back();
+        }
+    });
 }
 
 void on_text(void* data, const xmlChar* text, int length) {
-    Reading& reading = reading_of(data);
-    if (!reading.refusal && !reading.open.empty()) {
-        reading.open.back()->text.append(reinterpret_cast<const char*>(text), static_cast<std::size_t>(length));
-    }
+    proceed(data, [&](Reading& reading) {
+        if (!reading.open.empty()) {
+            reading.open.back()->text.append(reinterpret_cast<const char*>(text), static_cast<std::size_t>(length));
+        }
+    });
 }
 
 void note(Reading& reading, std::string what) {
-    if (!reading.refusal && reading.notes != nullptr) {
+    if (reading.notes != nullptr) {
         const int line = xmlSAX2GetLineNumber(reading.parser);
         reading.notes->push_back({std::move(what), static_cast<std::size_t>(std::max(line, 0))});
     }
 }
 
 void on_comment(void* data, const xmlChar*) {
-    note(reading_of(data), "a comment");
+    proceed(data, [](Reading& reading) { note(reading, "a comment"); });
 }
 
 void on_instruction(void* data, const xmlChar* target, const xmlChar*) {
-    note(reading_of(data), "a processing instruction " + std::string(bytes_of(target)));
+    proceed(data,
+            [&](Reading& reading) { note(reading, "a processing instruction " + std::string(bytes_of(target))); });
 }
 
 void on_doctype(void* data, const xmlChar*, const xmlChar*, const xmlChar*) {
-    Reading& reading = reading_of(data);
-    reading.refuse(
-        {.code = "GC-DCC-0002",
-         .where = reading.here(),
-         .what = "a DOCTYPE",
-         .rule = "a certificate has no document type: it could name files of this computer or grow without end",
-         .action = "ask the issuer for the document without the DOCTYPE"});
+    proceed(data, [](Reading& reading) {
+        reading.refuse(
+            {.code = "GC-DCC-0002",
+             .where = reading.here(),
+             .what = "a DOCTYPE",
+             .rule = "a certificate has no document type: it could name files of this computer or grow without end",
+             .action = "ask the issuer for the document without the DOCTYPE"});
+    });
 }
 
 xmlEntityPtr on_entity(void*, const xmlChar* name) {
@@ -165,19 +186,22 @@ xmlParserInputPtr on_external(void*, const xmlChar*, const xmlChar*) {
 }
 
 void on_message(void* data, xmlErrorPtr error) {
-    Reading& reading = reading_of(data);
-    if (reading.refusal || error == nullptr || error->level < XML_ERR_ERROR) {
+    if (error == nullptr || error->level < XML_ERR_ERROR) {
         return;
     }
-    // Messages of the parser end with a line feed and may quote bytes of the file.
-    const std::string what =
-        error->message == nullptr ? "not well-formed" : printable(without_outer_blanks(error->message));
-    reading.refusal = gum::Diagnostic{.code = "GC-DCC-0001",
-                                      .where = reading.file + ":" + std::to_string(std::max(error->line, 0)) + ":" +
-                                               std::to_string(std::max(error->int2, 0)),
-                                      .what = what,
-                                      .rule = "a digital certificate is well-formed XML 1.0",
-                                      .action = "ask the issuer for an undamaged file"};
+    proceed(data, [error](Reading& reading) {
+        if (error->code == XML_ERR_NO_MEMORY) {
+            throw std::bad_alloc();  // says nothing of the file
+        }
+        // Messages of the parser end with a line feed and may quote bytes of the file.
+        reading.refuse(
+            {.code = "GC-DCC-0001",
+             .where = reading.file + ":" + std::to_string(std::max(error->line, 0)) + ":" +
+                      std::to_string(std::max(error->int2, 0)),
+             .what = error->message == nullptr ? "not well-formed" : printable(without_outer_blanks(error->message)),
+             .rule = "a digital certificate is well-formed XML 1.0",
+             .action = "ask the issuer for an undamaged file"});
+    });
 }
 
 xmlSAXHandler handler() {
@@ -297,7 +321,7 @@ XmlElement read_xml(std::string_view bytes, const std::string& file, std::vector
     const std::unique_ptr<xmlParserCtxt, FreeParser> parser(
         xmlCreateMemoryParserCtxt(bytes.data(), static_cast<int>(bytes.size())));
     if (!parser) {
-        throw not_well_formed(file, "the parser cannot be started");
+        throw std::bad_alloc();  // the parser cannot be started: there is no other reason
     }
     Reading reading;
     reading.parser = parser.get();
@@ -309,8 +333,8 @@ XmlElement read_xml(std::string_view bytes, const std::string& file, std::vector
     *parser->sax = handler();
     parser->userData = &reading;
     xmlParseDocument(parser.get());
-    if (reading.refusal) {
-        throw gum::InputError(*reading.refusal);
+    if (reading.failure) {
+        std::rethrow_exception(reading.failure);
     }
     if (parser->wellFormed == 0 || !reading.has_root) {
         throw not_well_formed(file, "not well-formed");

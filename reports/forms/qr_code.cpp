@@ -2,8 +2,10 @@
 
 #include <qrencode.h>
 
+#include <cerrno>
 #include <cstddef>
 #include <memory>
+#include <new>
 #include <string>
 
 #include "gum/quantity/diagnostic.h"
@@ -20,10 +22,14 @@ constexpr int k_margin = 4;                   // modules
 
 QrCode qr_code(const std::string& text) {
     std::unique_ptr<QRcode, decltype(&QRcode_free)> made(nullptr, QRcode_free);
+    errno = 0;
     if (text.size() <= k_longest_code) {
         constexpr int k_smallest_version = 0;
         constexpr int k_case_sensitive = 1;
         made.reset(QRcode_encodeString(text.c_str(), k_smallest_version, QR_ECLEVEL_M, QR_MODE_8, k_case_sensitive));
+    }
+    if (made == nullptr && errno == ENOMEM) {
+        throw std::bad_alloc();  // says nothing of the text
     }
     if (made == nullptr) {
         throw gum::NoResultError(gum::Diagnostic{.code = "GC-REPORT-0044",

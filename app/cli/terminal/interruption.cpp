@@ -24,6 +24,7 @@
 #include "evaluation/limits.h"
 #include "system/ceilings.h"
 #include "system/cleanup.h"
+#include "system/end_of_memory.h"
 
 namespace gumcert::cli {
 
@@ -281,6 +282,7 @@ void tell_stage(const std::string& text) {
 }
 
 EntryUnderWay::EntryUnderWay() {
+    system::require_memory();
     const system::CleanupLock none_after_a_signal = system::hold_cleanup();
     Progress& progress = progress_until_now();
     const std::lock_guard lock(progress.mutex);

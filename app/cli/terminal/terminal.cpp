@@ -86,6 +86,16 @@ ExitCode told(const gum::DiagnosedError& error, const CommonOptions& common, Exi
     return code;
 }
 
+/// Whatever is thrown after memory has ended may follow from that, and not from a file.
+ExitCode with_memory(const std::function<ExitCode()>& work) {
+    try {
+        return work();
+    } catch (const std::exception&) {
+        system::require_memory();
+        throw;
+    }
+}
+
 }  // namespace
 
 ExitCode tell_of_no_memory(bool json_messages) {
@@ -101,7 +111,7 @@ ExitCode tell_of_no_memory(bool json_messages) {
 
 ExitCode explained(const CommonOptions& common, const std::function<ExitCode()>& work) {
     try {
-        return work();
+        return with_memory(work);
     } catch (const gum::UsageError& error) {
         return told(error, common, usage);
     } catch (const gum::InputError& error) {
@@ -211,6 +221,7 @@ gum::Diagnostic lost_output(const char* action) {
 }  // namespace
 
 void write_to_stdout(const std::string& bytes) {
+    system::require_memory();
     if (std::fwrite(bytes.data(), 1, bytes.size(), stdout) != bytes.size() || std::fflush(stdout) != 0) {
         throw gum::StorageError(lost_output("write to a file with -o FILE"));
     }

@@ -13,6 +13,7 @@
 
 #include "gum/quantity/diagnostic.h"
 #include "reports/record/evaluation_record.h"
+#include "system/end_of_memory.h"
 
 namespace gumcert::cli {
 
@@ -47,6 +48,7 @@ void print_to_stderr(fmt::format_string<Arguments...> format, Arguments&&... arg
 template <class... Arguments>
 void print_to_stdout(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
     const std::string text = fmt::format(format, std::forward<Arguments>(arguments)...);
+    system::require_memory();
     (void)std::fwrite(text.data(), 1, text.size(), stdout);
 }
 
