@@ -325,6 +325,7 @@ nlohmann::ordered_json changes_in_words(const reports::EvaluationRecord& record,
     const auto worded = [&](const std::vector<std::string>& of_document) {
         reports::RenderAssets assets;
         assets.templates = correction.templates;
+        assets.wordings = correction.wordings;
         assets.languages = of_document;
         const reports::Wording words = reports::read_wording(assets);
         const reports::Wording::Values values{{"standard", correction.standard}};

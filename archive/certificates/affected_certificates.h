@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/progress.h"
 #include "outputs/output_files.h"
+#include "reports/forms/read_wordings.h"
 
 namespace gumcert::archive {
 
@@ -73,6 +75,7 @@ struct Correction {
     std::filesystem::path templates;
     /// Asked before each evaluation for its progress, which may end it: such a certificate is one of which nothing can be said.
     std::function<gum::Progress()> watch = {};
+    std::shared_ptr<reports::ReadWordings> wordings = std::make_shared<reports::ReadWordings>();  ///< of all that is drafted
 };
 
 /// On which certificate one rests that is not right itself: "EX-1, which is to be amended first"; "" where on the standard.
