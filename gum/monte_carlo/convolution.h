@@ -55,8 +55,8 @@ public:
     explicit ConvolutionDistribution(std::span<const ConvolutionTerm> terms);
 
     /// \param x  [unit of y], not NaN
-    /// Accuracy: absolute error below 2e-6 of symmetric terms where none has a t-distribution with fewer than 3 degrees
-    /// of freedom, or samples; 1e-4 of others.
+    /// Accuracy: absolute error below 2e-6 of symmetric terms without samples where t-distributions have 3 degrees of
+    /// freedom or more, or one of them 2 or more and all others 10; 1e-4 of others.
     [[nodiscard]] double operator()(double x) const;
 
     /// P(… < x), which differs where samples are the only term: each of them has a probability of its own.

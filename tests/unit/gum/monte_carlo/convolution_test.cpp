@@ -212,6 +212,57 @@ TEST(ConvolutionDistribution, ReachesFarIntoTailsWithoutLimits) {
     }
 }
 
+/// ∫∫ (F − 1/2) of a t-distribution of scale 1, F its distribution function, from 0 on twice.
+double second_integral_of_student(double x, double nu) {
+    const Distribution t = Distribution::student_t(0.0, 1.0, nu);
+    const double f = probability_density(t, x);
+    const double half = std::copysign(0.5 - upper_tail_probability(t, std::abs(x)), x);
+    // ∫ z² f dz from 0 to x.
+    const double second = nu == 2.0 ? std::asinh(x / std::sqrt(2.0)) - x / std::sqrt(2.0 + x * x)
+                                    : (nu * half - x * (nu + x * x) * f) / (nu - 2.0);
+    return (0.5 * x * x + nu / (nu - 1.0)) * half - (nu - 3.0) / (2.0 * (nu - 1.0)) * second;
+}
+
+// Few readings, a resolution and the accuracy of a standard, the budget of everyday: a t-distribution of few degrees of
+// freedom and two rectangular ones, in closed form.
+TEST(ConvolutionDistribution, OfFewReadingsAndRectangularTerms) {
+    const double a = 1.0;
+    for (const double nu : {1.5, 2.0, 3.0, 4.0}) {
+        for (const double s : {0.01, 0.15, 1.0, 8.0}) {
+            for (const double b : {0.05, 0.9}) {
+                const std::vector<ConvolutionTerm> terms{{s, Distribution::student_t(3.0, 1.0, nu)},
+                                                         {-1.0, Distribution::uniform(0.0, a)},
+                                                         {b, Distribution::uniform(1.0, 1.0)}};
+                const auto exact = [&](double x) {
+                    const auto g = [&](double at) { return second_integral_of_student(at / s, nu); };
+                    return 0.5 + s * s / (4.0 * a * b) * (g(x + a + b) - g(x + a - b) - g(x - a + b) + g(x - a - b));
+                };
+                const ConvolutionDistribution distribution(terms);
+                for (const double x :
+                     {0.0, 0.5, 0.99, 1.0, 1.0 + b, 1.0 + s, 1.0 + 3.0 * s, 3.0 + 10.0 * s, 9.0 + 40.0 * s}) {
+                    EXPECT_NEAR(distribution(x), exact(x), 5e-8) << nu << ' ' << s << ' ' << b << ' ' << x;
+                    EXPECT_NEAR(distribution(-x), 1.0 - exact(x), 5e-8) << nu << ' ' << s << ' ' << b << ' ' << x;
+                }
+                for (const double p : {0.9545, 0.99}) {
+                    const double U = convolution_half_width(terms, p);
+                    EXPECT_NEAR(2.0 * exact(U) - 1.0, p, 5e-7) << nu << ' ' << s << ' ' << b;
+                }
+            }
+        }
+    }
+}
+
+// Far out only the long tail counts, and keeps its digits.
+TEST(ConvolutionDistribution, KeepsTheDigitsOfALongTail) {
+    const Distribution cauchy = Distribution::student_t(0.0, 1.0, 1.0);
+    const ConvolutionDistribution sum(std::vector<ConvolutionTerm>{
+        {1.0, cauchy}, {2.0, Distribution::normal(0.0, 1.0)}, {1.0, Distribution::student_t(0.0, 1.0, 30.0)}});
+    for (const double x : {100.0, 1e3, 1e5, 1e7}) {
+        const double beyond = std::atan(1.0 / x) / std::numbers::pi;
+        EXPECT_TRUE(agrees(sum(-x), beyond, 10.0 / (x * x) + 1e-8)) << x;
+    }
+}
+
 // Samples alone: each possible value has a probability of its own.
 TEST(ConvolutionDistribution, CountsSamples) {
     const auto samples = std::make_shared<std::vector<double>>(std::vector<double>{-2.0, 0.0, 0.0, 2.0});
