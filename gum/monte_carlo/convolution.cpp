@@ -39,6 +39,8 @@ constexpr std::size_t k_last_cell = k_convolution_cells / 2 * 10 / 11;
 constexpr double k_tail_beyond_grid = 1e-9;  // probability of a term outside the grid, of those without limits
 constexpr double k_negligible_cell = 1e-15;  // of a probability; what Fourier transforms leave behind is smaller
 constexpr double k_widest_grid = 60.0;       // in standard deviations of the sum; wider where the tails ask for it
+constexpr double k_next_grid = 64.0;         // of a grid for probabilities, as a multiple of the one before
+constexpr double k_widest_of_all = 1e12;     // no one asks further out, though tails of ν < 0.5 reach there
 
 /// A distribution about 0: X − E[X], or E[X] − X.
 struct Centred {
@@ -554,7 +556,9 @@ std::optional<FourierSeries> fourier_series(std::span<const Centred> terms, doub
             while (shorter < series.L && 4.0 * tail->error(shorter) > 0.5 * accepted) {
                 shorter *= 1.1;
             }
-            if (const Eigen::Index fewer = nodes_of(shorter); 2 * fewer < nodes) {
+            // Counts end at the first one above what is allowed: such a one says only that it is too many.
+            const Eigen::Index fewer = nodes_of(shorter);
+            if (fewer <= most_nodes && (nodes > most_nodes || 2 * fewer < nodes)) {
                 series.L = shorter;
                 series.tail = std::move(tail);
                 nodes = fewer;
@@ -803,14 +807,13 @@ GridDistribution::GridDistribution(std::vector<Centred> distributions) {
         (kind == DistributionKind::student_t || kind == DistributionKind::gamma || kind == DistributionKind::beta)) {
         symmetric =
             std::all_of(distributions.begin(), distributions.end(), [](const Centred& term) { return term.symmetric; });
-        constexpr double k_wider = 64.0;
         double widest_grid = k_widest_grid;
         CellSum sum;
         do {
             sum = convolve(distributions, widest_grid);
             grids.push_back(cumulative(sum));
-            widest_grid *= k_wider;
-        } while (sum.cut);
+            widest_grid *= k_next_grid;
+        } while (sum.cut && widest_grid < k_widest_of_all);
         return;
     }
     // The widest term enters by its own distribution function. In cells, the edges of a rectangle would be blurred by
@@ -823,17 +826,27 @@ GridDistribution::GridDistribution(std::vector<Centred> distributions) {
         others.emplace_back(0.0, 1.0);
         return;
     }
-    const CellSum sum = convolve(distributions, k_widest_grid);
-    others.reserve(static_cast<std::size_t>(
-        std::count_if(sum.cells.begin(), sum.cells.end(), [](double cell) { return cell > k_negligible_cell; })));
+    // Of tails that go on beyond a grid its inner part is taken, and what lies further out from a grid that is wider. On
+    // the last cells of the first one, 60 widths out, a tail of few degrees of freedom would end.
+    constexpr double k_trusted = 0.125;  // of the reach of a grid: what lies beyond it is put at its ends
     double total = 0.0;
-    for (std::size_t i = 0; i < k_convolution_cells; ++i) {
-        if (sum.cells[i] > k_negligible_cell) {
+    double known = -k_infinity;  // how far the finer grids go
+    for (double widest_grid = k_widest_grid; known < k_infinity; widest_grid *= k_next_grid) {
+        const CellSum sum = convolve(distributions, widest_grid);
+        const bool goes_on = sum.cut && widest_grid * k_next_grid < k_widest_of_all;
+        const double upto = goes_on ? k_trusted * 0.5 * static_cast<double>(k_convolution_cells) * sum.h : k_infinity;
+        for (std::size_t i = 0; i < k_convolution_cells; ++i) {
             const double k =
                 static_cast<double>(i) - (i > k_convolution_cells / 2 ? static_cast<double>(k_convolution_cells) : 0.0);
-            others.emplace_back(k * sum.h, sum.cells[i]);
-            total += sum.cells[i];
+            // Of the cells where one grid gives way to the next, the part that lies on this side.
+            const double part = std::clamp(std::abs(k) + 0.5 - known / sum.h, 0.0, 1.0) *
+                                std::clamp(upto / sum.h - std::abs(k) + 0.5, 0.0, 1.0);
+            if (part * sum.cells[i] > k_negligible_cell) {
+                others.emplace_back(k * sum.h, part * sum.cells[i]);
+                total += part * sum.cells[i];
+            }
         }
+        known = upto;
     }
     // By what was kept: without the cells that were left out, the distribution function would not end at 1.
     for (auto& [where, probability] : others) {

@@ -47,8 +47,8 @@ struct ConvolutionInterval {
 ///
 /// Symmetric terms with known characteristic functions: a Fourier series, as in convolution_interval(). Others, and where
 /// that falls slowly: the widest term enters by its own distribution function, so that the edges of a rectangular
-/// distribution stay where they are; the others are convolved numerically about it. Copies share the table and are cheap;
-/// threads may share it.
+/// distribution stay where they are; the others are convolved numerically about it, as far as their tails reach. Copies
+/// share the table and are cheap; threads may share it.
 class ConvolutionDistribution {
 public:
     /// \throws InputError  GC-GUM-0060 without a term of scale > 0, or with one that has a problem

@@ -263,6 +263,70 @@ TEST(ConvolutionDistribution, KeepsTheDigitsOfALongTail) {
     }
 }
 
+// A term that is much wider than the t-distribution beside it: beyond its edge only the tail counts, however far away that
+// is in widths of the sum. The exact values by the mean of the tail over the rectangle.
+TEST(ConvolutionDistribution, HasTheTailBeyondAWideRectangle) {
+    for (const double nu : {1.5, 2.0}) {
+        const auto g = [&](double x) { return second_integral_of_student(x, nu); };
+        // First integral of F − 1/2 by a difference of the second one.
+        const auto first = [&](double x) { return (g(x + 0.01) - g(x - 0.01)) / 0.02; };
+        for (const double a : {200.0, 400.0, 1000.0}) {
+            const ConvolutionDistribution sum(std::vector<ConvolutionTerm>{{1.0, Distribution::student_t(0.0, 1.0, nu)},
+                                                                           {1.0, Distribution::uniform(0.0, a)}});
+            for (const double beyond : {1.0, 3.0, 30.0}) {
+                const double x = a + beyond;
+                EXPECT_NEAR(sum(x), 0.5 + (first(x + a) - first(x - a)) / (2.0 * a), 2e-7) << nu << ' ' << x;
+            }
+        }
+    }
+    // ∫ arctan is known: for one degree of freedom in closed form.
+    const auto antiderivative = [](double x) { return x * std::atan(x) - 0.5 * std::log1p(x * x); };
+    for (const double a : {100.0, 500.0, 5000.0}) {
+        const ConvolutionDistribution sum(std::vector<ConvolutionTerm>{{1.0, Distribution::student_t(0.0, 1.0, 1.0)},
+                                                                       {1.0, Distribution::uniform(0.0, a)}});
+        for (const double beyond : {-1.0, 3.0, 0.5 * a, 70.0 * a}) {
+            const double x = a + beyond;
+            const double outside = 0.5 - (antiderivative(x + a) - antiderivative(x - a)) / (2.0 * a * std::numbers::pi);
+            EXPECT_NEAR(sum(-x), outside, 5e-7) << a << ' ' << x;
+        }
+    }
+    const ConvolutionDistribution two_readings(std::vector<ConvolutionTerm>{
+        {1.0, Distribution::student_t(0.0, 1.0, 1.0)}, {1.0, Distribution::uniform(0.0, 100.0)}});
+    EXPECT_NEAR(two_readings(-103.0), 0.0066792, 1e-7);
+    const ConvolutionDistribution three_readings(std::vector<ConvolutionTerm>{
+        {1.0, Distribution::student_t(0.0, 1.0, 2.0)}, {1.0, Distribution::uniform(0.0, 400.0)}});
+    EXPECT_NEAR(three_readings(-403.0), 1.97112e-4, 1e-9);
+}
+
+// Few readings of the item and of the standard: two long tails. The sum of Cauchy distributions is one; the others are by
+// integration of the characteristic function in an independent program.
+TEST(ConvolutionDistribution, HasTheTailsOfSeveralFewReadings) {
+    const auto antiderivative = [](double x) { return x * std::atan(x) - 0.5 * std::log1p(x * x); };
+    const Distribution cauchy = Distribution::student_t(0.0, 1.0, 1.0);
+    for (const double a : {3.0, 20.0, 200.0}) {
+        const ConvolutionDistribution sum(
+            std::vector<ConvolutionTerm>{{0.7, cauchy}, {0.3, cauchy}, {1.0, Distribution::uniform(0.0, a)}});
+        for (const double x : {0.5 * a, a + 1.0, a + 60.0, 100.0 * a, 1e5 * a}) {
+            const double outside = 0.5 - (antiderivative(x + a) - antiderivative(x - a)) / (2.0 * a * std::numbers::pi);
+            EXPECT_NEAR(sum(-x), outside, 5e-5) << a << ' ' << x;
+            EXPECT_NEAR(sum(x), 1.0 - outside, 5e-5) << a << ' ' << x;
+        }
+    }
+    const Distribution t = Distribution::student_t(0.0, 1.0, 2.0);
+    const auto outside = [&](double a, double x) {
+        return convolution_distribution(
+            std::vector<ConvolutionTerm>{{1.0, t}, {1.0, t}, {1.0, Distribution::uniform(0.0, a)}}, -x);
+    };
+    EXPECT_NEAR(outside(30.0, 85.0), 0.00015863925, 2e-7);
+    EXPECT_NEAR(outside(30.0, 100.0), 0.00011015467, 2e-7);
+    EXPECT_NEAR(outside(5.0, 85.0), 0.00013926051, 2e-7);
+    // Tails beyond all numbers of a double.
+    EXPECT_NEAR(convolution_distribution(std::vector<ConvolutionTerm>{{1.0, Distribution::student_t(0.0, 1.0, 1e-3)},
+                                                                      {1.0, Distribution::normal(0.0, 5.0)}},
+                                         0.0),
+                0.5, 1e-6);
+}
+
 // Samples alone: each possible value has a probability of its own.
 TEST(ConvolutionDistribution, CountsSamples) {
     const auto samples = std::make_shared<std::vector<double>>(std::vector<double>{-2.0, 0.0, 0.0, 2.0});
