@@ -203,8 +203,8 @@ certificate::PointColumn in_group(const certificate::PointColumn& all, const std
             value = to.from_si(from.to_si(*value));
             const int own = certificate::decimals_of(column.printed[i]) - shift;
             column.printed[i] = is_computed                    ? gum::round_to_quantum(*value, own)
-                                : is_power_of_ten              ? gum::round_as_written(*value, std::max(own, 0))
                                 : is_deviation && *value > 0.0 ? gum::round_to_uncertainty(*value, *value).value
+                                : is_power_of_ten              ? gum::round_as_written(*value, std::max(own, 0))
                                                                : converted(*value, own);
         }
     }

@@ -171,6 +171,7 @@ TEST(CertifiedTables, KeepTheValueOfWhatWasWrittenInAnotherUnit) {
     EXPECT_EQ(printed("0.2517", "arcsec", "urad"), "1.2") << "a standard deviation has two significant digits";
     EXPECT_EQ(printed("0.34", "in", "mm"), "8.6");
     EXPECT_EQ(printed("0.00012", "V", "mV"), "0.12");
+    EXPECT_EQ(printed("0.152753", "V", "mV"), "1.5E+2") << "as in units that are no power of ten away";
     EXPECT_EQ(printed("0", "in", "mm"), "0");
 }
 
