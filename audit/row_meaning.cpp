@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <initializer_list>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <optional>
 #include <span>
@@ -627,9 +628,7 @@ bool is_divisor(const std::optional<StatedNumber>& number) {
     return is_usable(number) && number->value > 0.0;
 }
 
-}  // namespace
-
-Contributor contributor_of(std::string_view quantity, std::string_view comment, std::string_view source) {
+Contributor contributor_by_words(std::string_view quantity, std::string_view comment, std::string_view source) {
     const WordLine words_of_quantity(quantity);
     if (const Contributor kind = kind_of_effect(words_of_quantity, quantity); kind != Contributor::other) {
         return kind;
@@ -657,6 +656,24 @@ Contributor contributor_of(std::string_view quantity, std::string_view comment, 
         }
     }
     return Contributor::other;
+}
+
+}  // namespace
+
+Contributor contributor_of(std::string_view quantity, std::string_view comment, std::string_view source) {
+    // The budgets of a certificate have the same rows from point to point, and to read one takes as long as to render it.
+    static thread_local std::map<std::array<std::string, 3>, Contributor> known;
+    constexpr std::size_t k_most = 1024;
+    std::array<std::string, 3> row{std::string(quantity), std::string(comment), std::string(source)};
+    if (const auto found = known.find(row); found != known.end()) {
+        return found->second;
+    }
+    const Contributor contributor = contributor_by_words(quantity, comment, source);
+    if (known.size() == k_most) {
+        known.clear();
+    }
+    known.emplace(std::move(row), contributor);
+    return contributor;
 }
 
 std::optional<double> divisor_of_shape(Shape shape) {

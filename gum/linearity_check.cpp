@@ -74,6 +74,10 @@ double scattered(std::uint64_t pair, std::uint64_t input) {
     return static_cast<double>(z >> 11U) * 0x1p-52 - 1.0;
 }
 
+double kept_inside(double x, const Support& limits) {
+    return std::min(std::max(x, limits.low), limits.high);
+}
+
 /// Keeps the inputs of a probe inside of the limits of their distributions.
 void keep_inside(Eigen::Ref<Eigen::RowVectorXd> point, const std::vector<ProbedGroup>& groups) {
     for (const ProbedGroup& group : groups) {
@@ -81,7 +85,7 @@ void keep_inside(Eigen::Ref<Eigen::RowVectorXd> point, const std::vector<ProbedG
             double& x = point(group.first + static_cast<Eigen::Index>(i));
             // A point outside of the limits never occurs: the model may have no value there, and curvature there says
             // nothing.
-            x = std::min(std::max(x, group.limits[i].low), group.limits[i].high);
+            x = kept_inside(x, group.limits[i]);
         }
     }
 }
@@ -92,32 +96,34 @@ Eigen::MatrixXd scattered_points(const Eigen::VectorXd& x, const std::vector<Pro
     constexpr double k_least_number = -1.0 + 0x1p-50;  // a normal quantity has no limit
     Eigen::MatrixXd points = x.transpose().replicate(2 * k_end_pairs, 1);
     using InDouble = boost::math::policies::policy<boost::math::policies::promote_double<false>>;  // ADR 0058
-    for (Eigen::Index pair = 0; pair < k_end_pairs; ++pair) {
-        const std::uint64_t number = k_other_numbers + static_cast<std::uint64_t>(pair);
-        for (const ProbedGroup& group : groups) {
-            const Eigen::Index size = group.root.rows();
-            Eigen::VectorXd s(size);
+    for (const ProbedGroup& group : groups) {
+        const Eigen::Index size = group.root.rows();
+        const bool is_diagonal = group.root.isDiagonal();
+        Eigen::VectorXd s(size);
+        Eigen::VectorXd off(size);
+        for (Eigen::Index pair = 0; pair < k_end_pairs; ++pair) {
+            const std::uint64_t number = k_other_numbers + static_cast<std::uint64_t>(pair);
             for (Eigen::Index i = 0; i < size; ++i) {
                 const double r =
                     std::max(scattered(number, static_cast<std::uint64_t>(group.first + i)), k_least_number);
                 // Limits of correlated quantities bound a body that a product of intervals does not describe; these are
                 // probed as normal ones.
-                const bool is_bounded = group.root.isDiagonal() && static_cast<std::size_t>(i) < group.limits.size() &&
+                const bool is_bounded = is_diagonal && static_cast<std::size_t>(i) < group.limits.size() &&
                                         std::isfinite(group.limits[static_cast<std::size_t>(i)].low) &&
                                         std::isfinite(group.limits[static_cast<std::size_t>(i)].high);
                 // r is even on −1 … 1. √3 r has the variance 1 of a uniform quantity, √2 erf⁻¹(r) is the quantile of a
                 // normal one.
                 s(i) = is_bounded ? std::numbers::sqrt3 * r : std::numbers::sqrt2 * boost::math::erf_inv(r, InDouble());
             }
-            const Eigen::RowVectorXd off = (group.root * s).transpose();
-            points.row(2 * pair).segment(group.first, size) += off;
-            points.row(2 * pair + 1).segment(group.first, size) -= off;
+            off.noalias() = group.root * s;
+            points.row(2 * pair).segment(group.first, size) += off.transpose();
+            points.row(2 * pair + 1).segment(group.first, size) -= off.transpose();
         }
-    }
-    for (Eigen::Index row = 0; row < points.rows(); ++row) {
-        Eigen::RowVectorXd point = points.row(row);
-        keep_inside(point, groups);
-        points.row(row) = point;
+        for (std::size_t i = 0; i < group.limits.size(); ++i) {
+            for (double& value : points.col(group.first + static_cast<Eigen::Index>(i))) {
+                value = kept_inside(value, group.limits[i]);
+            }
+        }
     }
     return points;
 }

@@ -39,6 +39,8 @@ constexpr std::size_t k_last_cell = k_convolution_cells / 2 * 10 / 11;
 constexpr double k_tail_beyond_grid = 1e-9;  // probability of a term outside the grid, of those without limits
 constexpr double k_negligible_cell = 1e-15;  // of a probability; what Fourier transforms leave behind is smaller
 constexpr double k_widest_grid = 60.0;       // in standard deviations of the sum; wider where the tails ask for it
+constexpr double k_next_grid = 64.0;         // of a grid for probabilities, as a multiple of the one before
+constexpr double k_widest_of_all = 1e12;     // no one asks further out, though tails of ν < 0.5 reach there
 
 /// A distribution about 0: X − E[X], or E[X] − X.
 struct Centred {
@@ -369,15 +371,59 @@ void multiply_by_characteristic(const Distribution& d, double delta, std::vector
     }
 }
 
+/// The upper tail of T + B, T a t-distribution, B a symmetric sum of others that lies within ±reach:
+/// P(T + B > z) = E[Q(z − B)] = Q(z) + σ_B² Q″(z)/2 + …, and what is left out is at most
+/// E[B⁴]/24 · max |Q⁗| over z ± reach. That of n derivatives of the density f: |f⁽ⁿ⁾(z)| ≤ (ν+1)…(ν+n) f(z)/(z² + ν s²)^(n/2),
+/// by Leibniz of (z + i√ν s)^−m (z − i√ν s)^−m with 2 m = ν + 1.
+struct StudentTail {
+    Distribution student;
+    double variance = 0.0;       // of B
+    double fourth_moment = 0.0;  // of B
+    double reach = 0.0;
+
+    [[nodiscard]] double square(double z) const { return z * z + student.shape * student.scale * student.scale; }
+    /// P(T + B > z)
+    [[nodiscard]] double beyond(double z) const {
+        const double change = 0.5 * variance * (student.shape + 1.0) * z / square(z);
+        return upper_tail_probability(student, z) + change * probability_density(student, z);
+    }
+    [[nodiscard]] double error(double z) const {
+        const double nu = student.shape;
+        const double nearest = z - reach;
+        return fourth_moment / 24.0 * (nu + 1.0) * (nu + 2.0) * (nu + 3.0) * probability_density(student, nearest) /
+               std::pow(square(nearest), 1.5);
+    }
+    /// What a period 2 L counts too much of within ±x: Σ_k P(2 k L − x < |T + B| < 2 k L + x), k = 1 … ∞.
+    [[nodiscard]] double wrapped(double x, double L) const {
+        constexpr int k_counted = 16;
+        double sum = 0.0;
+        for (int k = 1; k <= k_counted; ++k) {
+            sum += beyond(2.0 * k * L - x) - beyond(2.0 * k * L + x);
+        }
+        // The rest as an integral over k from the middle between two terms (Euler and Maclaurin), by Simpson over ±x:
+        // L is far out in the tail, and this further than 32 L.
+        const double from = (2.0 * k_counted + 1.0) * L;
+        const double below = beyond(from - x);
+        const double above = beyond(from + x);
+        sum += x / 3.0 * (below + 4.0 * beyond(from) + above) / (2.0 * L);
+        sum -= 2.0 * L / 24.0 * (probability_density(student, from - x) - probability_density(student, from + x));
+        return 2.0 * sum;
+    }
+};
+
 /// The distribution of a symmetric sum wrapped onto −L … L, as a Fourier series:
 /// P(|Y| ≤ x) = x/L + (2/π) Σ_j φ(jπ/L) sin(jπx/L)/j.
 struct FourierSeries {
     double L = 0.0;
     double reach = 0.0;  // what lies further out is as improbable as was asked for
     std::vector<double> phi;
+    std::optional<StudentTail> tail;  // where it goes on beyond L, and what was wrapped is taken off
 
-    /// P(|Y| ≤ x) and the density of |Y|, for 0 ≤ x ≤ L.
+    /// P(|Y| ≤ x) and the density of |Y|, for 0 ≤ x; without a tail x ≤ L.
     [[nodiscard]] std::pair<double, double> at(double x) const {
+        if (tail && x > L) {
+            return {1.0 - 2.0 * tail->beyond(x), 2.0 * probability_density(tail->student, x)};
+        }
         const double delta = std::numbers::pi / L;
         // cos and sin of every multiple by rotating the last ones: two products in place of two calls.
         const double c = std::cos(delta * x);
@@ -393,9 +439,38 @@ struct FourierSeries {
             sine = sine * c + cosine * s;
             cosine = next;
         }
-        return {probability, density / L};
+        return {tail ? probability - tail->wrapped(x, L) : probability, density / L};
     }
 };
+
+/// The tail of a sum in which one t-distribution is much heavier than all else; nothing where none is.
+/// \param accepted  error of a probability
+std::optional<StudentTail> heavy_tail(std::span<const Distribution> terms, double bounded_reach, double accepted) {
+    constexpr double k_light_nu = 10.0;  // from there on the fourth moment is near that of a normal distribution
+    StudentTail tail{.student = {}, .reach = bounded_reach};
+    bool found = false;
+    double excess = 0.0;
+    for (const Distribution& d : terms) {
+        const double variance = d.kind == DistributionKind::student_t && d.shape < k_light_nu
+                                    ? 0.0
+                                    : standard_deviation(d) * standard_deviation(d);
+        if (variance > 0.0) {
+            tail.variance += variance;
+            if (d.kind == DistributionKind::student_t) {
+                excess += 6.0 / (d.shape - 4.0) * variance * variance;
+                tail.reach += upper_quantile(d, 0.05 * accepted);
+            }
+        } else if (found) {
+            return std::nullopt;
+        } else {
+            tail.student = d;
+            found = true;
+        }
+    }
+    // Of bounded distributions the excess is negative.
+    tail.fourth_moment = 3.0 * tail.variance * tail.variance + excess;
+    return found ? std::optional(tail) : std::nullopt;
+}
 
 /// \param accepted    error of a probability
 /// \param beyond      probability with which the t-distributions together may lie beyond the reach, on one side
@@ -451,7 +526,6 @@ std::optional<FourierSeries> fourier_series(std::span<const Centred> terms, doub
     }
     series.L = L;
     series.reach = reach;
-    const double delta = std::numbers::pi / L;
     const auto left_out = [&](double t) {
         double value = 1.0;
         double power = 0.0;
@@ -463,13 +537,38 @@ std::optional<FourierSeries> fourier_series(std::span<const Centred> terms, doub
         // Of the terms 2/π φ_j/j that are left out: the sum of t^(−power)/t from there on is φ/power.
         return 2.0 / std::numbers::pi * value / std::max(1.0, power);
     };
-    Eigen::Index nodes = 32;
-    while (nodes <= most_nodes && left_out(static_cast<double>(nodes) * delta) > 0.1 * accepted) {
-        nodes += nodes / 4;
+    const auto nodes_of = [&](double half_period) {
+        const double delta = std::numbers::pi / half_period;
+        Eigen::Index nodes = 32;
+        while (nodes <= most_nodes && left_out(static_cast<double>(nodes) * delta) > 0.1 * accepted) {
+            nodes += nodes / 4;
+        }
+        return nodes;
+    };
+    Eigen::Index nodes = nodes_of(series.L);
+    // A t-distribution of few degrees of freedom has a tail so long that a period which holds it takes thousands of
+    // nodes. A shorter one does, where what is wrapped is known.
+    constexpr Eigen::Index k_few_nodes = 512;
+    if (nodes > k_few_nodes) {
+        if (std::optional<StudentTail> tail = heavy_tail(distributions, core, accepted)) {
+            double shorter = std::max(1.05 * tail->reach, 8.0 * tail->student.scale);
+            // Of two ends of each period, of which the first ones count by far most.
+            while (shorter < series.L && 4.0 * tail->error(shorter) > 0.5 * accepted) {
+                shorter *= 1.1;
+            }
+            // Counts end at the first one above what is allowed: such a one says only that it is too many.
+            const Eigen::Index fewer = nodes_of(shorter);
+            if (fewer <= most_nodes && (nodes > most_nodes || 2 * fewer < nodes)) {
+                series.L = shorter;
+                series.tail = std::move(tail);
+                nodes = fewer;
+            }
+        }
     }
     if (nodes > most_nodes) {
         return std::nullopt;
     }
+    const double delta = std::numbers::pi / series.L;
     series.phi.assign(static_cast<std::size_t>(nodes), 1.0);
     for (const Distribution& d : distributions) {
         multiply_by_characteristic(d, delta, series.phi);
@@ -487,7 +586,7 @@ std::optional<double> fourier_half_width(std::span<const Centred> terms, double 
         return std::nullopt;
     }
     double low = 0.0;
-    double high = std::min(series->reach, series->L);
+    double high = series->tail ? series->reach : std::min(series->reach, series->L);
     double x = 0.5 * high;
     // Newton steps with the density of the series, kept between ends that hold the root: where the density is small far
     // out, a step alone would leave them.
@@ -708,14 +807,13 @@ GridDistribution::GridDistribution(std::vector<Centred> distributions) {
         (kind == DistributionKind::student_t || kind == DistributionKind::gamma || kind == DistributionKind::beta)) {
         symmetric =
             std::all_of(distributions.begin(), distributions.end(), [](const Centred& term) { return term.symmetric; });
-        constexpr double k_wider = 64.0;
         double widest_grid = k_widest_grid;
         CellSum sum;
         do {
             sum = convolve(distributions, widest_grid);
             grids.push_back(cumulative(sum));
-            widest_grid *= k_wider;
-        } while (sum.cut);
+            widest_grid *= k_next_grid;
+        } while (sum.cut && widest_grid < k_widest_of_all);
         return;
     }
     // The widest term enters by its own distribution function. In cells, the edges of a rectangle would be blurred by
@@ -728,17 +826,27 @@ GridDistribution::GridDistribution(std::vector<Centred> distributions) {
         others.emplace_back(0.0, 1.0);
         return;
     }
-    const CellSum sum = convolve(distributions, k_widest_grid);
-    others.reserve(static_cast<std::size_t>(
-        std::count_if(sum.cells.begin(), sum.cells.end(), [](double cell) { return cell > k_negligible_cell; })));
+    // Of tails that go on beyond a grid its inner part is taken, and what lies further out from a grid that is wider. On
+    // the last cells of the first one, 60 widths out, a tail of few degrees of freedom would end.
+    constexpr double k_trusted = 0.125;  // of the reach of a grid: what lies beyond it is put at its ends
     double total = 0.0;
-    for (std::size_t i = 0; i < k_convolution_cells; ++i) {
-        if (sum.cells[i] > k_negligible_cell) {
+    double known = -k_infinity;  // how far the finer grids go
+    for (double widest_grid = k_widest_grid; known < k_infinity; widest_grid *= k_next_grid) {
+        const CellSum sum = convolve(distributions, widest_grid);
+        const bool goes_on = sum.cut && widest_grid * k_next_grid < k_widest_of_all;
+        const double upto = goes_on ? k_trusted * 0.5 * static_cast<double>(k_convolution_cells) * sum.h : k_infinity;
+        for (std::size_t i = 0; i < k_convolution_cells; ++i) {
             const double k =
                 static_cast<double>(i) - (i > k_convolution_cells / 2 ? static_cast<double>(k_convolution_cells) : 0.0);
-            others.emplace_back(k * sum.h, sum.cells[i]);
-            total += sum.cells[i];
+            // Of the cells where one grid gives way to the next, the part that lies on this side.
+            const double part = std::clamp(std::abs(k) + 0.5 - known / sum.h, 0.0, 1.0) *
+                                std::clamp(upto / sum.h - std::abs(k) + 0.5, 0.0, 1.0);
+            if (part * sum.cells[i] > k_negligible_cell) {
+                others.emplace_back(k * sum.h, part * sum.cells[i]);
+                total += part * sum.cells[i];
+            }
         }
+        known = upto;
     }
     // By what was kept: without the cells that were left out, the distribution function would not end at 1.
     for (auto& [where, probability] : others) {
@@ -777,7 +885,8 @@ struct ConvolutionDistribution::Table {
     [[nodiscard]] double by_series(double x) const {
         const double distance = std::abs(x);
         // Beyond the reach the probability is nearer to 1 than the error that was asked for: the reach was chosen so.
-        const double inside = distance < series->reach ? std::clamp(series->at(distance).first, 0.0, 1.0) : 1.0;
+        const bool within = distance < series->reach || series->tail;
+        const double inside = within ? std::clamp(series->at(distance).first, 0.0, 1.0) : 1.0;
         return x < 0.0 ? 0.5 - 0.5 * inside : 0.5 + 0.5 * inside;
     }
 };

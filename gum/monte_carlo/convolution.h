@@ -47,16 +47,16 @@ struct ConvolutionInterval {
 ///
 /// Symmetric terms with known characteristic functions: a Fourier series, as in convolution_interval(). Others, and where
 /// that falls slowly: the widest term enters by its own distribution function, so that the edges of a rectangular
-/// distribution stay where they are; the others are convolved numerically about it. Copies share the table and are cheap;
-/// threads may share it.
+/// distribution stay where they are; the others are convolved numerically about it, as far as their tails reach. Copies
+/// share the table and are cheap; threads may share it.
 class ConvolutionDistribution {
 public:
     /// \throws InputError  GC-GUM-0060 without a term of scale > 0, or with one that has a problem
     explicit ConvolutionDistribution(std::span<const ConvolutionTerm> terms);
 
     /// \param x  [unit of y], not NaN
-    /// Accuracy: absolute error below 2e-6 of symmetric terms where none has a t-distribution with fewer than 3 degrees
-    /// of freedom, or samples; 1e-4 of others.
+    /// Accuracy: absolute error below 2e-6 of symmetric terms without samples where t-distributions have 3 degrees of
+    /// freedom or more, or one of them 2 or more and all others 10; 1e-4 of others.
     [[nodiscard]] double operator()(double x) const;
 
     /// P(… < x), which differs where samples are the only term: each of them has a probability of its own.

@@ -113,13 +113,15 @@ struct CertifiedLimit {
 /// What a result is called in the table, where the job says so; else its name.
 struct PanelName {
     std::string stage, result;  ///< "Before the adjustment: " or ""
+    bool values = false;        ///< its role is that of a value, not of a difference
 };
 PanelName name_of_panel(const CertifiedTable& table, const CertifiedColumn& column, const Wording& words) {
     if (table.layout) {
         for (const certificate::ShownColumn& shown : table.layout->shown) {
             if (shown.show == "value" && shown.of == column.result && !shown.role.empty()) {
                 return {.stage = shown.stage.empty() ? "" : words("point_table", shown.stage).first() + ": ",
-                        .result = heading_of_shown(table, shown, words).first()};
+                        .result = heading_of_shown(table, shown, words).first(),
+                        .values = !certificate::is_role_of_difference(shown.role)};
             }
         }
     }
@@ -178,7 +180,8 @@ PlotPanel panel_of(const CertifiedTable& table, const CertifiedColumn& column, c
     PlotPanel panel{.heading = shortened(printable(name.stage + name.result), 40),
                     .y_label = shortened(printable(name.result), 40) + unit,
                     .series = {},
-                    .limits = {}};
+                    .limits = {},
+                    .values = name.values};
     const std::string tolerance = words("certificate", "tolerance_limit").first();
     const std::string acceptance = words("certificate", "acceptance_limit").first();
     const std::size_t values = series.points.size();

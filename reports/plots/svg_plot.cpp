@@ -363,16 +363,7 @@ Ticks number_ticks(double low, double high, int most) {
     return ticks;
 }
 
-/// What the vertical axis of a panel shows. The zero line belongs to every panel: errors and differences are read
-/// against it.
-AxisRange range_of(const PlotPanel& panel, double margin) {
-    AxisRange range{.low = -panel.y_most, .high = panel.y_most};
-    for (const PlotLimit& limit : panel.limits) {
-        range.include(limit.y * 1.15);
-    }
-    if (panel.y_most > 0.0) {
-        return range;
-    }
+std::vector<double> ends_of_bars(const PlotPanel& panel) {
     std::vector<double> ends;
     for (const PlotSeries& series : panel.series) {
         for (const PlotPoint& p : series.points) {
@@ -380,6 +371,42 @@ AxisRange range_of(const PlotPanel& panel, double margin) {
             ends.insert(ends.end(), {p.y - U, p.y + U});
         }
     }
+    return ends;
+}
+
+/// The axis of values that lie further from zero than they and their limits from each other: from zero on, neither their
+/// uncertainty nor what is left to a limit could be seen.
+std::optional<AxisRange> range_far_from_zero(const PlotPanel& panel) {
+    std::vector<double> ends = ends_of_bars(panel);
+    for (const PlotLimit& limit : panel.limits) {
+        ends.push_back(limit.y);
+    }
+    if (!panel.values || panel.y_most > 0.0 || ends.empty()) {
+        return std::nullopt;
+    }
+    const auto [low, high] = std::minmax_element(ends.begin(), ends.end());
+    const double spread = *high - *low;
+    // Labels of more digits would leave no room for the plot.
+    constexpr double k_least_spread = 1e-5;
+    const bool is_far =
+        spread > k_least_spread * std::max(std::abs(*low), std::abs(*high)) && (*low > spread || *high < -spread);
+    return is_far ? std::optional(AxisRange{.low = *low, .high = *high}.widened(0.15)) : std::nullopt;
+}
+
+/// What the vertical axis of a panel shows. The zero line belongs to every panel of errors and differences: they are read
+/// against it.
+AxisRange range_of(const PlotPanel& panel, double margin) {
+    if (const std::optional<AxisRange> far = range_far_from_zero(panel)) {
+        return *far;
+    }
+    AxisRange range{.low = -panel.y_most, .high = panel.y_most};
+    for (const PlotLimit& limit : panel.limits) {
+        range.include(limit.y * 1.15);
+    }
+    if (panel.y_most > 0.0) {
+        return range;
+    }
+    const std::vector<double> ends = ends_of_bars(panel);
     for (const double end : ends) {
         range.include(end);
     }

@@ -45,6 +45,8 @@ struct PlotPanel {
     std::vector<PlotLimit> limits;  ///< dashed or dotted horizontal lines; always inside the panel
     /// Greatest magnitude of the vertical axis; what is beyond it is drawn at the edge. 0: as the points need it.
     double y_most = 0.0;
+    /// Values of a quantity, not differences: without the zero line where that is further away than they are apart.
+    bool values = false;
     std::vector<PlotMark> marks = {};
     /// Curves of a low panel of their own below this one, from zero up, where Plot::strip_height is not 0.
     std::vector<PlotSeries> strip = {};

@@ -188,6 +188,8 @@ certificate::PointColumn in_group(const certificate::PointColumn& all, const std
         return column;
     }
     const bool is_computed = all.decimals == "of_uncertainty";
+    // "s(V_x)", as no column is called that a job declares: two significant digits in every unit (JCGM 100:2008, 7.2.6).
+    const bool is_deviation = all.name.starts_with("s(");
     const gum::Unit from = gum::Unit::parse(all.unit);
     const gum::Unit to = gum::Unit::parse(unit);
     constexpr double k_noise = 1e-9;
@@ -200,9 +202,10 @@ certificate::PointColumn in_group(const certificate::PointColumn& all, const std
         if (std::optional<double>& value = column.values[i]) {
             value = to.from_si(from.to_si(*value));
             const int own = certificate::decimals_of(column.printed[i]) - shift;
-            column.printed[i] = is_computed       ? gum::round_to_quantum(*value, own)
-                                : is_power_of_ten ? gum::round_as_written(*value, std::max(own, 0))
-                                                  : converted(*value, own);
+            column.printed[i] = is_computed                    ? gum::round_to_quantum(*value, own)
+                                : is_deviation && *value > 0.0 ? gum::round_to_uncertainty(*value, *value).value
+                                : is_power_of_ten              ? gum::round_as_written(*value, std::max(own, 0))
+                                                               : converted(*value, own);
         }
     }
     return column;

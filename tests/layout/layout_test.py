@@ -99,7 +99,8 @@ def wide_job(results: tuple[int, ...]) -> dict:
                    "d": {"unit": "bar", "value": 0, "half_width": 0.025}} | indications,
         "outputs": {f"e_{i}": {"unit": "bar", "role": "error", "description": f"error, {roles[i]}"} for i in channels},
         "points": points, "tables": [{"title": "Pressure", "columns": columns, "plot": "none"}],
-        "certificate": {"annexes": "none", "specifications": [{
+        # A standard without U is a finding that tells a key, longer than its column.
+        "certificate": {"status": "not_accredited", "annexes": "none", "standards": [{"name": "Pressure balance", "identification": "PB-1"}], "specifications": [{
             "id": "class", "results": [f"e_{i}" for i in channels], "lower": -0.6, "upper": 0.6, "unit": "bar", "document": "EN 837-1",
             "edition": "1996", "rule": {"id": "DR-04", "guard_factor": 0.5}}]}}
 

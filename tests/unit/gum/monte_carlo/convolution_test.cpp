@@ -212,6 +212,121 @@ TEST(ConvolutionDistribution, ReachesFarIntoTailsWithoutLimits) {
     }
 }
 
+/// ∫∫ (F − 1/2) of a t-distribution of scale 1, F its distribution function, from 0 on twice.
+double second_integral_of_student(double x, double nu) {
+    const Distribution t = Distribution::student_t(0.0, 1.0, nu);
+    const double f = probability_density(t, x);
+    const double half = std::copysign(0.5 - upper_tail_probability(t, std::abs(x)), x);
+    // ∫ z² f dz from 0 to x.
+    const double second = nu == 2.0 ? std::asinh(x / std::sqrt(2.0)) - x / std::sqrt(2.0 + x * x)
+                                    : (nu * half - x * (nu + x * x) * f) / (nu - 2.0);
+    return (0.5 * x * x + nu / (nu - 1.0)) * half - (nu - 3.0) / (2.0 * (nu - 1.0)) * second;
+}
+
+// Few readings, a resolution and the accuracy of a standard, the budget of everyday: a t-distribution of few degrees of
+// freedom and two rectangular ones, in closed form.
+TEST(ConvolutionDistribution, OfFewReadingsAndRectangularTerms) {
+    const double a = 1.0;
+    for (const double nu : {1.5, 2.0, 3.0, 4.0}) {
+        for (const double s : {0.01, 0.15, 1.0, 8.0}) {
+            for (const double b : {0.05, 0.9}) {
+                const std::vector<ConvolutionTerm> terms{{s, Distribution::student_t(3.0, 1.0, nu)},
+                                                         {-1.0, Distribution::uniform(0.0, a)},
+                                                         {b, Distribution::uniform(1.0, 1.0)}};
+                const auto exact = [&](double x) {
+                    const auto g = [&](double at) { return second_integral_of_student(at / s, nu); };
+                    return 0.5 + s * s / (4.0 * a * b) * (g(x + a + b) - g(x + a - b) - g(x - a + b) + g(x - a - b));
+                };
+                const ConvolutionDistribution distribution(terms);
+                for (const double x :
+                     {0.0, 0.5, 0.99, 1.0, 1.0 + b, 1.0 + s, 1.0 + 3.0 * s, 3.0 + 10.0 * s, 9.0 + 40.0 * s}) {
+                    EXPECT_NEAR(distribution(x), exact(x), 5e-8) << nu << ' ' << s << ' ' << b << ' ' << x;
+                    EXPECT_NEAR(distribution(-x), 1.0 - exact(x), 5e-8) << nu << ' ' << s << ' ' << b << ' ' << x;
+                }
+                for (const double p : {0.9545, 0.99}) {
+                    const double U = convolution_half_width(terms, p);
+                    EXPECT_NEAR(2.0 * exact(U) - 1.0, p, 5e-7) << nu << ' ' << s << ' ' << b;
+                }
+            }
+        }
+    }
+}
+
+// Far out only the long tail counts, and keeps its digits.
+TEST(ConvolutionDistribution, KeepsTheDigitsOfALongTail) {
+    const Distribution cauchy = Distribution::student_t(0.0, 1.0, 1.0);
+    const ConvolutionDistribution sum(std::vector<ConvolutionTerm>{
+        {1.0, cauchy}, {2.0, Distribution::normal(0.0, 1.0)}, {1.0, Distribution::student_t(0.0, 1.0, 30.0)}});
+    for (const double x : {100.0, 1e3, 1e5, 1e7}) {
+        const double beyond = std::atan(1.0 / x) / std::numbers::pi;
+        EXPECT_TRUE(agrees(sum(-x), beyond, 10.0 / (x * x) + 1e-8)) << x;
+    }
+}
+
+// A term that is much wider than the t-distribution beside it: beyond its edge only the tail counts, however far away that
+// is in widths of the sum. The exact values by the mean of the tail over the rectangle.
+TEST(ConvolutionDistribution, HasTheTailBeyondAWideRectangle) {
+    for (const double nu : {1.5, 2.0}) {
+        const auto g = [&](double x) { return second_integral_of_student(x, nu); };
+        // First integral of F − 1/2 by a difference of the second one.
+        const auto first = [&](double x) { return (g(x + 0.01) - g(x - 0.01)) / 0.02; };
+        for (const double a : {200.0, 400.0, 1000.0}) {
+            const ConvolutionDistribution sum(std::vector<ConvolutionTerm>{{1.0, Distribution::student_t(0.0, 1.0, nu)},
+                                                                           {1.0, Distribution::uniform(0.0, a)}});
+            for (const double beyond : {1.0, 3.0, 30.0}) {
+                const double x = a + beyond;
+                EXPECT_NEAR(sum(x), 0.5 + (first(x + a) - first(x - a)) / (2.0 * a), 2e-7) << nu << ' ' << x;
+            }
+        }
+    }
+    // ∫ arctan is known: for one degree of freedom in closed form.
+    const auto antiderivative = [](double x) { return x * std::atan(x) - 0.5 * std::log1p(x * x); };
+    for (const double a : {100.0, 500.0, 5000.0}) {
+        const ConvolutionDistribution sum(std::vector<ConvolutionTerm>{{1.0, Distribution::student_t(0.0, 1.0, 1.0)},
+                                                                       {1.0, Distribution::uniform(0.0, a)}});
+        for (const double beyond : {-1.0, 3.0, 0.5 * a, 70.0 * a}) {
+            const double x = a + beyond;
+            const double outside = 0.5 - (antiderivative(x + a) - antiderivative(x - a)) / (2.0 * a * std::numbers::pi);
+            EXPECT_NEAR(sum(-x), outside, 5e-7) << a << ' ' << x;
+        }
+    }
+    const ConvolutionDistribution two_readings(std::vector<ConvolutionTerm>{
+        {1.0, Distribution::student_t(0.0, 1.0, 1.0)}, {1.0, Distribution::uniform(0.0, 100.0)}});
+    EXPECT_NEAR(two_readings(-103.0), 0.0066792, 1e-7);
+    const ConvolutionDistribution three_readings(std::vector<ConvolutionTerm>{
+        {1.0, Distribution::student_t(0.0, 1.0, 2.0)}, {1.0, Distribution::uniform(0.0, 400.0)}});
+    EXPECT_NEAR(three_readings(-403.0), 1.97112e-4, 1e-9);
+}
+
+// Few readings of the item and of the standard: two long tails. The sum of Cauchy distributions is one; the others are by
+// integration of the characteristic function in an independent program.
+TEST(ConvolutionDistribution, HasTheTailsOfSeveralFewReadings) {
+    const auto antiderivative = [](double x) { return x * std::atan(x) - 0.5 * std::log1p(x * x); };
+    const Distribution cauchy = Distribution::student_t(0.0, 1.0, 1.0);
+    for (const double a : {3.0, 20.0, 200.0}) {
+        const ConvolutionDistribution sum(
+            std::vector<ConvolutionTerm>{{0.7, cauchy}, {0.3, cauchy}, {1.0, Distribution::uniform(0.0, a)}});
+        for (const double x : {0.5 * a, a + 1.0, a + 60.0, 100.0 * a, 1e5 * a}) {
+            const double outside = 0.5 - (antiderivative(x + a) - antiderivative(x - a)) / (2.0 * a * std::numbers::pi);
+            EXPECT_NEAR(sum(-x), outside, 5e-5) << a << ' ' << x;
+            EXPECT_NEAR(sum(x), 1.0 - outside, 5e-5) << a << ' ' << x;
+        }
+    }
+    const Distribution t = Distribution::student_t(0.0, 1.0, 2.0);
+    const auto outside = [&](double a, double x) {
+        return convolution_distribution(
+            std::vector<ConvolutionTerm>{{1.0, t}, {1.0, t}, {1.0, Distribution::uniform(0.0, a)}}, -x);
+    };
+    EXPECT_NEAR(outside(30.0, 85.0), 0.00015863925, 2e-7);
+    EXPECT_NEAR(outside(30.0, 100.0), 0.00011015467, 2e-7);
+    EXPECT_NEAR(outside(5.0, 85.0), 0.00013926051, 2e-7);
+    // Tails beyond all numbers of a double.
+    EXPECT_NEAR(convolution_distribution(std::vector<ConvolutionTerm>{{1.0, Distribution::student_t(0.0, 1.0, 1e-3)},
+                                                                      {1.0, Distribution::normal(0.0, 5.0)}},
+                                         0.0),
+                0.5, 1e-6);
+}
+
 // Samples alone: each possible value has a probability of its own.
 TEST(ConvolutionDistribution, CountsSamples) {
     const auto samples = std::make_shared<std::vector<double>>(std::vector<double>{-2.0, 0.0, 0.0, 2.0});

@@ -382,6 +382,33 @@ TEST(SvgPlot, AnAxisThatIsNoAngleHasDecimalTicks) {
     EXPECT_THAT(svg(plot), HasSubstr(">150</text>"));
 }
 
+// 10 dB within 9.8 dB to 10.2 dB was drawn from 0 dB to 12 dB, and neither U nor what was left to the limits could be seen.
+TEST(SvgPlot, AnAxisOfValuesLeavesTheZeroLineOutWhereItIsFar) {
+    const auto ticks_of = [](std::vector<double> y, bool values) {
+        Plot plot{
+            .id = "v", .title = "t", .description = "d", .x_label = "x", .panels = {PlotPanel{}}, .x_is_angle = false};
+        PlotPanel& panel = plot.panels.front();
+        panel.values = values;
+        panel.limits = {{.y = y.front() < 1e6 ? 0.98 * y.front() : y.front(), .label = "l", .dotted = false}};
+        panel.series = {
+            {.label = "", .points = {}, .marker = PlotMarker::disc, .bars = PlotBars::bars, .joined = false}};
+        for (std::size_t i = 0; i < y.size(); ++i) {
+            panel.series.front().points.push_back({.x = static_cast<double>(i), .y = y[i], .U = 0.03});
+        }
+        return svg(plot);
+    };
+    for (const double sign : {1.0, -1.0}) {
+        const std::string far = ticks_of({sign * 10.02, sign * 10.06, sign * 10.13}, true);
+        EXPECT_NE(far.find(sign > 0.0 ? ">9.8<" : ">−9.8<"), std::string::npos) << far;
+        EXPECT_NE(far.find(sign > 0.0 ? ">10.1<" : ">−10.1<"), std::string::npos) << far;
+        EXPECT_EQ(far.find(sign > 0.0 ? ">5<" : ">−5<"), std::string::npos) << far;
+    }
+    EXPECT_EQ(ticks_of({10.02, 10.06, 10.13}, false).find(">9.8<"), std::string::npos)
+        << "differences have their zero line";
+    EXPECT_EQ(ticks_of({10.0, 50.0, 100.0}, true), ticks_of({10.0, 50.0, 100.0}, false)) << "zero is near enough";
+    EXPECT_EQ(ticks_of({1e7, 1e7 + 1.0}, true), ticks_of({1e7, 1e7 + 1.0}, false)) << "labels of eight digits";
+}
+
 TEST(SvgPlot, AMarginKeepsPointsOffTheFrame) {
     Plot plot = one_panel(0.0, 3.0);  // from 0 to 180, and 3 is a tick
     plot.panels[0].series[0].marker = PlotMarker::disc;

@@ -122,8 +122,9 @@ TEST(CertifiedTables, KeepTheValueOfWhatWasWrittenInAnotherUnit) {
     record.results = {one};
     certificate::PointTable& points = record.points.emplace();
     points.points = {"1"};
+    std::string name = "x";
     const auto printed = [&](const std::string& written, const std::string& unit, const std::string& in) {
-        points.columns = {{.name = "x",
+        points.columns = {{.name = name,
                            .heading = {},
                            .role = "",
                            .stage = "",
@@ -132,8 +133,8 @@ TEST(CertifiedTables, KeepTheValueOfWhatWasWrittenInAnotherUnit) {
                            .values = {std::stod(written)},
                            .printed = {written}}};
         certificate::TableRequest request;
-        request.units = {{.group = "", .of = "x", .unit = in}};
-        request.columns = {{.show = "column", .of = "x", .heading = {}, .role = "", .stage = ""},
+        request.units = {{.group = "", .of = name, .unit = in}};
+        request.columns = {{.show = "column", .of = name, .heading = {}, .role = "", .stage = ""},
                            {.show = "value", .of = "E", .heading = {}, .role = "", .stage = ""}};
         points.tables = {request};
         return certified_tables(record).at(0).layout->columns.at(0).printed.at(0);
@@ -166,6 +167,12 @@ TEST(CertifiedTables, KeepTheValueOfWhatWasWrittenInAnotherUnit) {
                 << written << " " << unit << " in " << in;
         }
     }
+    name = "s(x)";
+    EXPECT_EQ(printed("0.2517", "arcsec", "urad"), "1.2") << "a standard deviation has two significant digits";
+    EXPECT_EQ(printed("0.34", "in", "mm"), "8.6");
+    EXPECT_EQ(printed("0.00012", "V", "mV"), "0.12");
+    EXPECT_EQ(printed("0.152753", "V", "mV"), "1.5E+2") << "as in units that are no power of ten away";
+    EXPECT_EQ(printed("0", "in", "mm"), "0");
 }
 
 TEST(CertifiedTables, HoldARotaryTable) {
