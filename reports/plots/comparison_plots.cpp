@@ -308,6 +308,7 @@ Plot plot_over(const PositionAxis& axis, const PanelGrid& grid, const Comparison
             .panel_height = grid.panel_height,
             .x_is_angle = axis.is_angle(comparison),
             .x_is_number = axis.kind == PositionAxis::Kind::number,
+            .x_in_power = axis.scale.exponent != 0,
             .margin = k_margin};
 }
 
@@ -391,7 +392,8 @@ std::string method_values_plot(const Comparison& comparison, const std::string& 
             .y_label = scale.label(name.empty() ? words("label", "value").first() : name,
                                    gum::unit_for_people(comparison.unit)),
             .series = {value_series(direction, axis, scale, false), value_series(direction, axis, scale, true)},
-            .limits = {}};
+            .limits = {},
+            .y_in_power = scale.exponent != 0};
         panel.series[0].label = shortened(names[0].second.first(), 40);
         panel.series[1].label = shortened(names[1].second.first(), 40);
         if (most < largest) {

@@ -193,6 +193,27 @@ TEST(SvgPlot, LabelsOfAxesOfAnySizeStandInsideThePictureAndApart) {
     EXPECT_THAT(svg(tiny), HasSubstr(">U / (10⁻¹² F)<"));
 }
 
+/// The power of an axis is what its maker says, not what its title looks like.
+TEST(SvgPlot, AnAxisIsPutIntoAPowerOfTenOnce) {
+    Plot plot = one_panel(-2e-9, 2e-9);  // beside a panel of ordinary numbers in the same power
+    plot.panels[0].limits.clear();
+    plot.panels[0].y_label = "D / 10⁶";
+    plot.panels[0].y_in_power = true;
+    EXPECT_THAT(svg(plot), HasSubstr(">D / 10⁶</text>"));
+    plot.panels[0].y_in_power = false;
+    EXPECT_THAT(svg(plot), HasSubstr(">D / (10⁻⁹ 10⁶)</text>"));
+
+    Plot named = one_panel(-5e9, 5e9);
+    named.panels[0].limits.clear();
+    named.panels[0].y_label = "h / (10 mm)";
+    EXPECT_THAT(svg(named), Not(HasSubstr(">5000000000</text>")));
+    named.x_is_angle = false;
+    named.x_label = "x / 10⁹";
+    named.panels[0].series[0].points = {{1e-9, 0.0, 0.0}, {2e-9, 1.0, 0.0}};
+    named.x_in_power = true;
+    EXPECT_THAT(svg(named), HasSubstr(">x / 10⁹</text>"));
+}
+
 TEST(SvgPlot, DegenerateScalesStillHaveAPlot) {
     for (const double v : {0.0, 1e-30, 5.0, -1e9}) {
         Plot flat = one_panel(v, v);
