@@ -240,16 +240,6 @@ TEST(PointTableView, DividesATableBeforeANumberBreaks) {
     EXPECT_EQ(head_of_second(), "Indication / V") << "the nominal value does not say which row it is";
 }
 
-TEST(PointTableView, KnowsWhichTablesShowVerdicts) {
-    certificate::Certificate certificate = table_of_points();
-    EXPECT_TRUE(shows_verdict(certificate.tables[0], "E"));
-    EXPECT_FALSE(shows_verdict(certificate.tables[0], "F"));
-    certificate.tables[0].layout->shown.pop_back();
-    EXPECT_FALSE(shows_verdict(certificate.tables[0], "E"));
-    certificate.tables[0].layout.reset();
-    EXPECT_FALSE(shows_verdict(certificate.tables[0], "E"));
-}
-
 TEST(PointTableView, ResultsAreDrawnAgainstTheNominalValue) {
     const json texts = json::parse(read_asset(assets().templates / "wording" / "en.json"));
     const Wording words(texts);
