@@ -225,6 +225,7 @@ struct BiasPanel {
     std::string heading;
     std::vector<PlotPoint> points;  ///< in the units of the axes
     std::vector<std::pair<double, double>> line;
+    AxisRange ends = {};  ///< of the horizontal axis
 };
 
 void draw_differences(Drawing& drawing, const PlotFrame& frame, const std::vector<PlotPoint>& points) {
@@ -308,7 +309,117 @@ Plot plot_over(const PositionAxis& axis, const PanelGrid& grid, const Comparison
             .panel_height = grid.panel_height,
             .x_is_angle = axis.is_angle(comparison),
             .x_is_number = axis.kind == PositionAxis::Kind::number,
+            .x_in_power = axis.scale.exponent != 0,
             .margin = k_margin};
+}
+
+/// What the axes of the differences are divided by.
+struct BiasAxes {
+    AxisScale up, across;
+};
+
+BiasAxes bias_axes(const Comparison& comparison, const PositionAxis& positions, bool by_position) {
+    std::vector<double> magnitudes;
+    double largest_reference = 0.0;
+    for (const ComparisonPoint& p : comparison.points) {
+        magnitudes.push_back(std::max(std::abs(p.D.number), p.U_D.number.value_or(0.0)));
+        largest_reference = std::max(largest_reference, std::abs(p.reference_value.number));
+    }
+    double largest_D = middle_of(magnitudes);
+    largest_D =
+        largest_D > 0.0 || magnitudes.empty() ? largest_D : *std::max_element(magnitudes.begin(), magnitudes.end());
+    return {.up = AxisScale::of(largest_D),
+            .across = by_position ? positions.scale : AxisScale::of(largest_reference, k_most_of_axis)};
+}
+
+/// A line for each direction that has one, else one for all.
+std::vector<std::pair<Direction, const BiasLineSummary*>> bias_lines(const Comparison& comparison) {
+    std::vector<std::pair<Direction, const BiasLineSummary*>> lines;
+    for (const Direction& direction : directions_of(comparison)) {
+        const BiasLineSummary* line = bias_of(comparison, direction.name);
+        if (line != nullptr && lines.size() < k_most_panels) {
+            lines.emplace_back(direction, line);
+        }
+    }
+    if (const BiasLineSummary* line = bias_of(comparison, "all"); lines.empty() && line != nullptr) {
+        Direction all;
+        for (const ComparisonPoint& p : comparison.points) {
+            all.points.push_back(&p);
+        }
+        lines.emplace_back(std::move(all), line);
+    }
+    return lines;
+}
+
+/// \param positions  of the points; null: they stand at their reference values
+std::vector<BiasPanel> bias_panels(const Comparison& comparison, const BiasAxes& axes, const PositionAxis* positions,
+                                   const Wording& words, const std::string& id) {
+    std::vector<BiasPanel> panels;
+    for (const auto& [direction, line] : bias_lines(comparison)) {
+        BiasPanel panel{
+            .heading = direction.name.empty() ? "" : panel_name(direction, words), .points = {}, .line = {}};
+        for (std::size_t i = 0; i < direction.points.size(); ++i) {
+            const ComparisonPoint& p = *direction.points[i];
+            const double x = positions != nullptr ? positions->of(direction, i) : axes.across(p.reference_value.number);
+            panel.points.push_back({.x = on_axis(id, x),
+                                    .y = on_axis(id, axes.up(p.D.number)),
+                                    .U = on_axis(id, axes.up(p.U_D.number.value_or(0.0)))});
+            panel.ends = i == 0 ? AxisRange{.low = x, .high = x} : panel.ends;
+            panel.ends.include(x);
+        }
+        panel.points = visible(std::move(panel.points));
+        const double slope = axes.up(line->slope.number) / axes.across(1.0);  // in the units of the axes
+        for (const double x : {panel.ends.low, panel.ends.high}) {
+            panel.line.emplace_back(
+                x, on_axis(id, axes.up(line->constant.number) + slope * (x - axes.across(line->centre.number))));
+        }
+        panels.push_back(std::move(panel));
+    }
+    return panels;
+}
+
+/// The frame of each panel, but for its place in the grid.
+PlotFrame bias_frame(const std::vector<BiasPanel>& panels, const PanelGrid& grid, bool is_angle) {
+    AxisRange x_range = panels.front().ends;
+    AxisRange y_range = range_of_differences(panels);
+    for (const BiasPanel& panel : panels) {
+        x_range.include(panel.ends.low);
+        x_range.include(panel.ends.high);
+        for (const auto& [x, y] : panel.line) {
+            y_range.include(y);
+        }
+    }
+    PlotFrame frame{.height = grid.panel_height, .margin = k_margin};
+    frame.across = is_angle ? angle_ticks(x_range.low, x_range.high) : nice_ticks(x_range.low, x_range.high, 8);
+    y_range = y_range.widened(k_room_at_ends);
+    frame.up = nice_ticks(y_range.low, y_range.high, 5);
+    frame.x = room_for_axis(frame.up);
+    frame.width = k_drawing_width / grid.columns - frame.x - 16.0;
+    return frame;
+}
+
+PlotKey bias_key(const std::vector<BiasPanel>& panels, const PlotFrame& frame, const Wording& words) {
+    const bool beyond = std::any_of(panels.begin(), panels.end(), [&](const BiasPanel& panel) {
+        return std::any_of(panel.points.begin(), panel.points.end(),
+                           [&](const PlotPoint& p) { return p.y < frame.up.low || p.y > frame.up.high; });
+    });
+    PlotKey key;
+    key.add(Symbol::bar, words("plot", "difference_key").first());
+    key.add(Symbol::line, words("plot", "bias_key").first());
+    if (beyond) {
+        key.add(Symbol::beyond, words("plot", "beyond_key").first());
+    }
+    return key;
+}
+
+/// Zero, the differences, the line of the bias.
+void draw_bias(Drawing& body, const PlotFrame& frame, const BiasPanel& panel) {
+    body.line(frame.x, frame.py(0.0), frame.right(), frame.py(0.0), "stroke=\"#000000\" stroke-width=\"0.7\"");
+    draw_differences(body, frame, panel.points);
+    const auto& [x1, y1] = panel.line.front();
+    const auto& [x2, y2] = panel.line.back();
+    body.line(frame.px(x1), frame.py(y1), frame.px(x2), frame.py(y2), "stroke=\"#000000\" stroke-width=\"1.2\"");
+    draw_outline(body, frame);
 }
 
 }  // namespace
@@ -391,7 +502,8 @@ std::string method_values_plot(const Comparison& comparison, const std::string& 
             .y_label = scale.label(name.empty() ? words("label", "value").first() : name,
                                    gum::unit_for_people(comparison.unit)),
             .series = {value_series(direction, axis, scale, false), value_series(direction, axis, scale, true)},
-            .limits = {}};
+            .limits = {},
+            .y_in_power = scale.exponent != 0};
         panel.series[0].label = shortened(names[0].second.first(), 40);
         panel.series[1].label = shortened(names[1].second.first(), 40);
         if (most < largest) {
@@ -409,122 +521,41 @@ std::string bias_plot(const Comparison& comparison, const std::string& id, const
     }
     const PositionAxis positions(comparison, words);
     const bool by_position = *against == "position" && positions.kind != PositionAxis::Kind::number;
-    std::vector<double> magnitudes;
-    double largest_reference = 0.0;
-    for (const ComparisonPoint& p : comparison.points) {
-        magnitudes.push_back(std::max(std::abs(p.D.number), p.U_D.number.value_or(0.0)));
-        largest_reference = std::max(largest_reference, std::abs(p.reference_value.number));
-    }
-    double largest_D = middle_of(magnitudes);
-    largest_D =
-        largest_D > 0.0 || magnitudes.empty() ? largest_D : *std::max_element(magnitudes.begin(), magnitudes.end());
-    const AxisScale scale = AxisScale::of(largest_D);
-    const AxisScale across = by_position ? positions.scale : AxisScale::of(largest_reference, k_most_of_axis);
-    const std::string unit = gum::unit_for_people(comparison.unit);
-
-    // A panel for each direction with a line of its own, else one for all.
-    std::vector<std::pair<Direction, const BiasLineSummary*>> lines;
-    for (const Direction& direction : directions_of(comparison)) {
-        const BiasLineSummary* line = bias_of(comparison, direction.name);
-        if (line != nullptr && lines.size() < k_most_panels) {
-            lines.emplace_back(direction, line);
-        }
-    }
-    if (const BiasLineSummary* line = bias_of(comparison, "all"); lines.empty() && line != nullptr) {
-        Direction all;
-        for (const ComparisonPoint& p : comparison.points) {
-            all.points.push_back(&p);
-        }
-        lines.emplace_back(std::move(all), line);
-    }
-    std::vector<BiasPanel> panels;
-    AxisRange x_range;
-    for (const auto& [direction, line] : lines) {
-        BiasPanel panel{
-            .heading = direction.name.empty() ? "" : panel_name(direction, words), .points = {}, .line = {}};
-        AxisRange ends;
-        for (std::size_t i = 0; i < direction.points.size(); ++i) {
-            const ComparisonPoint& p = *direction.points[i];
-            const double x = by_position ? positions.of(direction, i) : across(p.reference_value.number);
-            panel.points.push_back({.x = on_axis(id, x),
-                                    .y = on_axis(id, scale(p.D.number)),
-                                    .U = on_axis(id, scale(p.U_D.number.value_or(0.0)))});
-            ends = i == 0 ? AxisRange{.low = x, .high = x} : ends;
-            ends.include(x);
-        }
-        panel.points = visible(std::move(panel.points));
-        x_range = panels.empty() ? ends : x_range;
-        x_range.include(ends.low);
-        x_range.include(ends.high);
-        const double slope = scale(line->slope.number) / across(1.0);  // in the units of the axes
-        for (const double x : {ends.low, ends.high}) {
-            const double y = on_axis(id, scale(line->constant.number) + slope * (x - across(line->centre.number)));
-            panel.line.emplace_back(x, y);
-        }
-        panels.push_back(std::move(panel));
-    }
+    const BiasAxes axes = bias_axes(comparison, positions, by_position);
+    const std::vector<BiasPanel> panels = bias_panels(comparison, axes, by_position ? &positions : nullptr, words, id);
     if (panels.empty()) {
         return "";
     }
-
-    AxisRange y_range = range_of_differences(panels);
-    for (const BiasPanel& panel : panels) {
-        for (const auto& [x, y] : panel.line) {
-            y_range.include(y);
-        }
-    }
     const PanelGrid grid(panels.size(), 190.0);
-    PlotFrame frame{.height = grid.panel_height, .margin = k_margin};
-    frame.across = by_position && positions.is_angle(comparison) ? angle_ticks(x_range.low, x_range.high)
-                                                                 : nice_ticks(x_range.low, x_range.high, 8);
-    y_range = y_range.widened(k_room_at_ends);
-    frame.up = nice_ticks(y_range.low, y_range.high, 5);
-    const double column_width = k_drawing_width / grid.columns;
-    frame.x = room_for_axis(frame.up);
-    frame.width = column_width - frame.x - 16.0;
-    bool beyond = false;
-    for (const BiasPanel& panel : panels) {
-        for (const PlotPoint& p : panel.points) {
-            beyond = beyond || p.y < frame.up.low || p.y > frame.up.high;
-        }
-    }
-    PlotKey key;
-    key.add(Symbol::bar, words("plot", "difference_key").first());
-    key.add(Symbol::line, words("plot", "bias_key").first());
-    if (beyond) {
-        key.add(Symbol::beyond, words("plot", "beyond_key").first());
-    }
+    PlotFrame frame = bias_frame(panels, grid, by_position && positions.is_angle(comparison));
     const Wording::Values names = method_names(comparison, words);
-    const std::string reference = names[1].second.first();
+    const std::string unit = gum::unit_for_people(comparison.unit);
     const std::string x_title =
         by_position
             ? positions.title
-            : across.label(
-                  words.filled("plot", "reference_value_axis", {{"reference", shortened(reference, 40)}}).first(),
+            : axes.across.label(
+                  words.filled("plot", "reference_value_axis", {{"reference", shortened(names[1].second.first(), 40)}})
+                      .first(),
                   unit);
+    const std::string y_title = axes.up.label(words("plot", "difference_axis").first(), unit);
     Drawing body;
     const bool headed = panels.size() > 1 || !panels[0].heading.empty();
     const double head = headed ? 22.0 : 4.0;
-    const double top = key.draw(body, frame.x, k_drawing_width);
+    const double top = bias_key(panels, frame, words).draw(body, frame.x, k_drawing_width);
     const double pitch = head + frame.height + 8.0;
     for (std::size_t i = 0; i < panels.size(); ++i) {
         const int column = static_cast<int>(i) / grid.rows;
         const int row = static_cast<int>(i) % grid.rows;
-        frame.x = column * column_width + room_for_axis(frame.up);
+        frame.x = column * (k_drawing_width / grid.columns) + room_for_axis(frame.up);
         frame.y = top + row * pitch + head;
         if (headed) {
             body.text(frame.x, frame.y - 7.0, panels[i].heading, "start", 11.0, " font-weight=\"bold\"");
         }
-        draw_up_axis(body, frame, scale.label(words("plot", "difference_axis").first(), unit));
+        draw_up_axis(body, frame, y_title);
         if (row + 1 == grid.rows || i + 1 == panels.size()) {
             draw_across_axis(body, frame, x_title);
         }
-        body.line(frame.x, frame.py(0.0), frame.right(), frame.py(0.0), "stroke=\"#000000\" stroke-width=\"0.7\"");
-        draw_differences(body, frame, panels[i].points);
-        const auto& [x1, y1] = panels[i].line.front();
-        const auto& [x2, y2] = panels[i].line.back();
-        body.line(frame.px(x1), frame.py(y1), frame.px(x2), frame.py(y2), "stroke=\"#000000\" stroke-width=\"1.2\"");
-        draw_outline(body, frame);
+        draw_bias(body, frame, panels[i]);
     }
     const double height = top + grid.rows * pitch + 34.0;
     return plot_document(id, words.filled("plot", "bias_title", names).first(),

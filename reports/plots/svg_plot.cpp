@@ -450,15 +450,13 @@ Plot in_powers_of_ten(Plot plot) {
             }
         }
     }
-    // Whoever made the plot may have chosen a power already.
-    const auto has_power = [](const std::string& label) { return label.find(" / (10") != std::string::npos; };
     const AxisScale x_scale =
-        plot.x_is_angle || plot.x_is_number || has_power(plot.x_label) ? AxisScale() : AxisScale::of(across);
+        plot.x_is_angle || plot.x_is_number || plot.x_in_power ? AxisScale() : AxisScale::of(across);
     plot.x_label = x_scale.label(plot.x_label);
     for (PlotPanel& panel : plot.panels) {
         const AxisRange range = range_of(panel, 0.0);
         const AxisScale y_scale =
-            has_power(panel.y_label) ? AxisScale() : AxisScale::of(std::max(std::abs(range.low), std::abs(range.high)));
+            panel.y_in_power ? AxisScale() : AxisScale::of(std::max(std::abs(range.low), std::abs(range.high)));
         panel.y_label = y_scale.label(panel.y_label);
         panel.strip_label = y_scale.label(panel.strip_label);
         panel.y_most = y_scale(panel.y_most);

@@ -48,6 +48,8 @@ struct PlotPanel {
     /// Values of a quantity, not differences: without the zero line where that is further away than they are apart.
     bool values = false;
     std::vector<PlotMark> marks = {};
+    /// y is in a power of ten already, which its label names: panels share one, or the axis ends before its points do.
+    bool y_in_power = false;
     /// Curves of a low panel of their own below this one, from zero up, where Plot::strip_height is not 0.
     std::vector<PlotSeries> strip = {};
     std::string strip_label = {};
@@ -64,6 +66,7 @@ struct Plot {
     double panel_height = 150.0;  ///< drawing units; a plot is 680 wide
     bool x_is_angle = true;       ///< ticks divide a circle of 360
     bool x_is_number = false;     ///< of a point: ticks are whole numbers
+    bool x_in_power = false;      ///< x is in a power of ten already, which its label names
     /// Drawing units that stay free between points and frame; 0: the outermost points may lie on it.
     double margin = 0.0;
     double strip_height = 0.0;  ///< of the low panels below the panels

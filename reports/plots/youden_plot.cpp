@@ -140,12 +140,10 @@ private:
     std::vector<Box> covered_;
 };
 
-}  // namespace
+using Outline = std::vector<std::pair<double, double>>;  // in drawing units
 
-std::string youden_plot(const YoudenDiagram& diagram, const std::string& id, const Wording& words) {
-    if (diagram.points.empty()) {
-        return "";
-    }
+/// Of the first item and of the second one.
+std::pair<YoudenAxis, YoudenAxis> youden_axes(const YoudenDiagram& diagram, const Wording& words) {
     std::vector<double> first;
     std::vector<double> second;
     for (const YoudenPoint& p : diagram.points) {
@@ -159,10 +157,65 @@ std::string youden_plot(const YoudenDiagram& diagram, const std::string& id, con
         ellipse_second.push_back(y);
     }
     const bool in_z = diagram.sigma_first && diagram.sigma_second;
-    const YoudenAxis across(first, ellipse_first, diagram.centre_first, diagram.first_item, diagram.first_unit, in_z,
-                            words);
-    const YoudenAxis up(second, ellipse_second, diagram.centre_second, diagram.second_item, diagram.second_unit, in_z,
-                        words);
+    return {YoudenAxis(first, ellipse_first, diagram.centre_first, diagram.first_item, diagram.first_unit, in_z, words),
+            YoudenAxis(second, ellipse_second, diagram.centre_second, diagram.second_item, diagram.second_unit, in_z,
+                       words)};
+}
+
+bool is_shown(const PlotFrame& frame, double x, double y) {
+    return x >= frame.across.low && x <= frame.across.high && y >= frame.up.low && y <= frame.up.high;
+}
+
+/// The medians, and below them the part of the line of equal deviations through both that lies inside the panel.
+/// \param slope  of that line in the units of the axes; 0: there is none
+void draw_medians(Drawing& body, const PlotFrame& frame, const YoudenAxis& across, const YoudenAxis& up, double slope) {
+    if (slope > 0.0) {
+        const auto height_at = [&](double x) { return up.centre + slope * (x - across.centre); };
+        const auto at_height = [&](double y) { return across.centre + (y - up.centre) / slope; };
+        const double from = std::max(frame.across.low, at_height(frame.up.low));
+        const double to = std::min(frame.across.high, at_height(frame.up.high));
+        body.line(frame.px(from), frame.py(height_at(from)), frame.px(to), frame.py(height_at(to)),
+                  "stroke=\"#8a8a8a\" stroke-width=\"0.9\"");
+    }
+    constexpr const char* k_median = "stroke=\"#000000\" stroke-width=\"0.9\" stroke-dasharray=\"4 2\"";
+    body.line(frame.px(across.centre), frame.y, frame.px(across.centre), frame.bottom(), k_median);
+    body.line(frame.x, frame.py(up.centre), frame.right(), frame.py(up.centre), k_median);
+}
+
+/// The points, and the names of all where they are few, else of those outside of the ellipse.
+/// \param ellipse  empty: there is none
+void draw_laboratories(Drawing& body, const PlotFrame& frame, const YoudenDiagram& diagram, const YoudenAxis& across,
+                       const YoudenAxis& up, const Outline& ellipse) {
+    const std::size_t laboratories = diagram.points.size();
+    const double radius = laboratories > 400 ? 1.2 : laboratories > 60 ? 1.8 : 2.4;
+    Outline places;
+    for (std::size_t i = 0; i < laboratories; ++i) {
+        const double x = frame.px(std::clamp(across.points[i], frame.across.low, frame.across.high));
+        const double y = frame.py_inside(up.points[i]);
+        places.emplace_back(x, y);
+        const bool shown = is_shown(frame, across.points[i], up.points[i]);
+        body.marker(shown ? PlotMarker::disc : PlotMarker::cross, x, y, shown ? radius : 3.0);
+    }
+    constexpr std::size_t k_all_named = 15;
+    constexpr std::size_t k_most_named = 40;
+    std::size_t named = 0;
+    PointNames names(frame, places);
+    for (std::size_t i = 0; i < laboratories && named < k_most_named; ++i) {
+        const auto& [x, y] = places[i];
+        if (laboratories <= k_all_named || (!ellipse.empty() && !is_inside(ellipse, x, y))) {
+            ++named;
+            names.draw(body, x, y, shortened_name(printable(diagram.points[i].participant), 18));
+        }
+    }
+}
+
+}  // namespace
+
+std::string youden_plot(const YoudenDiagram& diagram, const std::string& id, const Wording& words) {
+    if (diagram.points.empty()) {
+        return "";
+    }
+    const auto [across, up] = youden_axes(diagram, words);
     const AxisRange x_range = across.range();
     const AxisRange y_range = up.range();
     PlotFrame frame{.width = 400.0, .height = 400.0};
@@ -170,13 +223,13 @@ std::string youden_plot(const YoudenDiagram& diagram, const std::string& id, con
     frame.up = nice_ticks(y_range.low, y_range.high, 8);
     frame.x = 0.5 * (k_drawing_width - frame.width - room_for_axis(frame.up)) + room_for_axis(frame.up);
 
-    const auto is_shown = [&](std::size_t i) {
-        return across.points[i] >= frame.across.low && across.points[i] <= frame.across.high &&
-               up.points[i] >= frame.up.low && up.points[i] <= frame.up.high;
-    };
+    const bool same_unit = diagram.first_unit == diagram.second_unit;
+    const double slope = same_unit ? 1.0 : diagram.scale_first > 0.0 ? diagram.scale_second / diagram.scale_first : 0.0;
+    // In the units of the axes.
+    const double drawn_slope = up.scale(slope) / across.scale(1.0);
     bool beyond = false;
     for (std::size_t i = 0; i < diagram.points.size(); ++i) {
-        beyond = beyond || !is_shown(i);
+        beyond = beyond || !is_shown(frame, across.points[i], up.points[i]);
     }
     PlotKey key;
     const bool with_ellipse = diagram.ellipse.size() > 2;
@@ -184,10 +237,6 @@ std::string youden_plot(const YoudenDiagram& diagram, const std::string& id, con
         key.add(Symbol::line, words("plot", "ellipse_95_key").first());
     }
     key.add(Symbol::dashed, words("plot", "medians_key").first());
-    const bool same_unit = diagram.first_unit == diagram.second_unit;
-    const double slope = same_unit ? 1.0 : diagram.scale_first > 0.0 ? diagram.scale_second / diagram.scale_first : 0.0;
-    // In the units of the axes.
-    const double drawn_slope = up.scale(slope) / across.scale(1.0);
     if (drawn_slope > 0.0) {
         key.add(Symbol::grey_line, words("plot", "equal_key").first());
     }
@@ -198,45 +247,15 @@ std::string youden_plot(const YoudenDiagram& diagram, const std::string& id, con
     frame.y = key.draw(body, 40.0, k_drawing_width) + 4.0;
     draw_up_axis(body, frame, up.title);
     draw_across_axis(body, frame, across.title);
-    if (drawn_slope > 0.0) {
-        // The part of the line through the medians that lies inside the panel.
-        const auto height_at = [&](double x) { return up.centre + drawn_slope * (x - across.centre); };
-        const auto at_height = [&](double y) { return across.centre + (y - up.centre) / drawn_slope; };
-        const double from = std::max(frame.across.low, at_height(frame.up.low));
-        const double to = std::min(frame.across.high, at_height(frame.up.high));
-        body.line(frame.px(from), frame.py(height_at(from)), frame.px(to), frame.py(height_at(to)),
-                  "stroke=\"#8a8a8a\" stroke-width=\"0.9\"");
-    }
-    constexpr const char* k_median = "stroke=\"#000000\" stroke-width=\"0.9\" stroke-dasharray=\"4 2\"";
-    body.line(frame.px(across.centre), frame.y, frame.px(across.centre), frame.bottom(), k_median);
-    body.line(frame.x, frame.py(up.centre), frame.right(), frame.py(up.centre), k_median);
-    std::vector<std::pair<double, double>> outline;
+    draw_medians(body, frame, across, up, drawn_slope);
+    Outline outline;
     for (std::size_t i = 0; i < diagram.ellipse.size(); ++i) {
         outline.emplace_back(frame.px(across.ellipse[i]), frame.py(up.ellipse[i]));
     }
     if (with_ellipse) {
         body.points("polygon", outline, "fill=\"none\" stroke=\"#000000\" stroke-width=\"1.2\"");
     }
-    const std::size_t laboratories = diagram.points.size();
-    const double radius = laboratories > 400 ? 1.2 : laboratories > 60 ? 1.8 : 2.4;
-    std::vector<std::pair<double, double>> places;
-    for (std::size_t i = 0; i < laboratories; ++i) {
-        const double x = frame.px(std::clamp(across.points[i], frame.across.low, frame.across.high));
-        const double y = frame.py_inside(up.points[i]);
-        places.emplace_back(x, y);
-        body.marker(is_shown(i) ? PlotMarker::disc : PlotMarker::cross, x, y, is_shown(i) ? radius : 3.0);
-    }
-    constexpr std::size_t k_all_named = 15;
-    constexpr std::size_t k_most_named = 40;
-    std::size_t named = 0;
-    PointNames names(frame, places);
-    for (std::size_t i = 0; i < laboratories && named < k_most_named; ++i) {
-        const auto& [x, y] = places[i];
-        if (laboratories <= k_all_named || (with_ellipse && !is_inside(outline, x, y))) {
-            ++named;
-            names.draw(body, x, y, shortened_name(printable(diagram.points[i].participant), 18));
-        }
-    }
+    draw_laboratories(body, frame, diagram, across, up, with_ellipse ? outline : Outline());
     draw_outline(body, frame);
     const double height = frame.bottom() + 42.0;
     const Wording::Values items = {{"first", shortened(printable(diagram.first_item), 60)},

@@ -31,4 +31,7 @@ namespace gumcert::reports {
 [[nodiscard]] const Result* result_of(const EvaluationRecord& record, const certificate::CertifiedTable& table,
                                       const std::string& name, std::size_t row);
 
+/// Whether a table of results shows limits and verdict of a result: then the certificate has no table of verdicts for it.
+[[nodiscard]] bool shows_verdict(const certificate::CertifiedTable& table, const std::string& result);
+
 }  // namespace gumcert::reports

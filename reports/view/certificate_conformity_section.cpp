@@ -5,11 +5,11 @@
 #include "gum/quantity/unit.h"
 #include "reports/point_headings.h"
 #include "reports/printed_texts.h"
+#include "reports/record/certified_tables.h"
 #include "reports/result_names.h"
 #include "reports/view/certified_overview.h"
 #include "reports/view/certified_value_tables.h"
 #include "reports/view/decision_formula.h"
-#include "reports/view/point_table_view.h"
 #include "text/numbers.h"
 
 #include <algorithm>

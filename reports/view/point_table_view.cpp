@@ -557,13 +557,4 @@ void layout_table(CertificateBuilder& builder, const Wording& words, const Certi
     }
 }
 
-bool shows_verdict(const CertifiedTable& table, const std::string& result) {
-    const auto shows = [&](const auto& holds) {
-        return table.layout && std::any_of(table.layout->shown.begin(), table.layout->shown.end(),
-                                           [&](const ShownColumn& c) { return c.of == result && holds(c.show); });
-    };
-    return shows([](const std::string& show) { return show == "verdict"; }) &&
-           shows([](const std::string& show) { return show.starts_with("limit"); });
-}
-
 }  // namespace gumcert::reports

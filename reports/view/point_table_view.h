@@ -21,7 +21,4 @@ namespace gumcert::reports {
 void layout_table(CertificateBuilder& builder, const Wording& words, const certificate::CertifiedTable& table,
                   const std::string& id, const CertifiedOverview::Holds& shown, const CertifiedOverview& overview);
 
-/// Whether a table shows limits and verdict of a result, so that no other table has to repeat them.
-[[nodiscard]] bool shows_verdict(const certificate::CertifiedTable& table, const std::string& result);
-
 }  // namespace gumcert::reports

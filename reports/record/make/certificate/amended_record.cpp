@@ -20,6 +20,7 @@
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/unit.h"
 #include "gum/rounding.h"
+#include "reports/record/certified_tables.h"
 #include "reports/record/make/certificate/paired_points.h"
 #include "reports/record/make/certificate/paired_rows.h"
 #include "reports/record/record_sections.h"
@@ -286,14 +287,6 @@ std::string in_all_languages(const certificate::LocalisedText& text) {
         all += (all.empty() ? "" : " / ") + own;
     }
     return all;
-}
-
-/// Whether limits and verdict of a result stand in the table of results: then nothing else of the decision is printed value by
-/// value (reports/view, certificate_conformity_section).
-bool shows_verdict(const CertifiedTable& table, const std::string& result) {
-    return table.layout &&
-           std::any_of(table.layout->shown.begin(), table.layout->shown.end(),
-                       [&](const certificate::ShownColumn& c) { return c.show == "verdict" && c.of == result; });
 }
 
 /// What is printed of one value; a member that is not printed is an empty text.

@@ -17,7 +17,7 @@ namespace {
 using workbook::CellKind;
 using workbook::CellPlace;
 
-AuditSubject subject_with(const test::Contents& contents) {
+AuditSubject subject_of_workbook(const test::Contents& contents) {
     AuditSubject subject;
     subject.kind = AuditSubject::Kind::workbook;
     subject.workbook = std::make_shared<const AuditedWorkbook>(test::workbook_of(contents));
@@ -50,7 +50,7 @@ test::Contents generated_sheet(unsigned seed) {
 
 TEST(ReadCells, AreThoseThatTheGraphListsOneByOne) {
     for (unsigned seed = 1; seed <= 40; ++seed) {
-        const AuditSubject subject = subject_with(generated_sheet(seed));
+        const AuditSubject subject = subject_of_workbook(generated_sheet(seed));
         const WorksheetView view(subject);
         ReadCells cells(view);
         for (const SheetFormula& formula : view.formulas()) {
@@ -94,7 +94,7 @@ TEST(ReadCells, AreThoseThatTheGraphListsOneByOne) {
 
 TEST(ReadCells, FirstReadersAreThoseOfEachCell) {
     for (unsigned seed = 1; seed <= 40; ++seed) {
-        const AuditSubject subject = subject_with(generated_sheet(seed));
+        const AuditSubject subject = subject_of_workbook(generated_sheet(seed));
         const WorksheetView view(subject);
         ReadCells cells(view);
         FirstReaders first;
@@ -127,7 +127,7 @@ TEST(ReadCells, FirstReadersAreThoseOfEachCell) {
 }
 
 TEST(ReadCells, SaysWhereItHandsOutNoMore) {
-    const AuditSubject subject = subject_with({{"A1", "1"}, {"B1", "=A1"}, {"C1", "=A1+B1"}});
+    const AuditSubject subject = subject_of_workbook({{"A1", "1"}, {"B1", "=A1"}, {"C1", "=A1+B1"}});
     const WorksheetView view(subject);
     ReadCells cells(view, 2);
     EXPECT_EQ(cells.runs({0, *workbook::read_a1("B1")}).size(), 1U);

@@ -41,7 +41,7 @@ std::string critical_of(const AuditReport& report) {
     }
     return all;
 }
-bool tells(const AuditReport& report, std::string_view what) {
+bool leaves_unread(const AuditReport& report, std::string_view what) {
     return std::any_of(report.subject.not_read.begin(), report.subject.not_read.end(),
                        [what](const Sentence& said) { return said.english().find(what) != std::string::npos; });
 }
@@ -185,7 +185,7 @@ TEST(SumsBetweenRows, StandAboveTheirPartsAsWell) {
                 ASSERT_EQ(report.results.size(), 1U);
                 EXPECT_EQ(report.subject.budgets[0].rows.size(), 4U);
                 EXPECT_NEAR(report.results[0].recomputed.u_c, u_c, 1e-9);
-                EXPECT_TRUE(tells(report, "is taken for a sum of rows"));
+                EXPECT_TRUE(leaves_unread(report, "is taken for a sum of rows"));
                 EXPECT_EQ(first_of(report, "K01"), nullptr);
                 EXPECT_EQ(critical_of(report), "");
             }
@@ -231,7 +231,7 @@ TEST(SumsBetweenRows, PartsOfAQuantityAreInItsContribution) {
         ASSERT_EQ(report.results.size(), 1U);
         EXPECT_EQ(report.subject.budgets[0].rows.size(), 3U);
         EXPECT_NEAR(report.results[0].recomputed.u_c, root_of_squares({34.5, 15.0, 11.547}), 0.05);
-        EXPECT_TRUE(tells(report, "is taken for a part of \"Temperature\""));
+        EXPECT_TRUE(leaves_unread(report, "is taken for a part of \"Temperature\""));
         EXPECT_EQ(critical_of(report), "");
     }
 }
@@ -248,7 +248,7 @@ TEST(SumsBetweenRows, OfRowsWithoutACoefficientAreNoPartsByChance) {
         SCOPED_TRACE(table);
         ASSERT_EQ(report.results.size(), 1U);
         EXPECT_EQ(report.subject.budgets[0].rows.size(), table.starts_with(rows) ? 3U : 4U);
-        EXPECT_FALSE(tells(report, "is taken for a part of"));
+        EXPECT_FALSE(leaves_unread(report, "is taken for a part of"));
         EXPECT_EQ(critical_of(report), "");
     }
 }
@@ -263,7 +263,7 @@ TEST(SumsBetweenRows, NameTheQuantityThatPartsAreOf) {
     for (const char* said :
          {"\"Sensor\" is taken for a part of \"Temperature\"", "\"Gradient\" is taken for a part of \"Temperature\"",
           "\"Friction\" is taken for a part of \"Bending\"", "\"Level\" is taken for a part of \"Bending\""}) {
-        EXPECT_TRUE(tells(above, said)) << said;
+        EXPECT_TRUE(leaves_unread(above, said)) << said;
     }
 }
 
@@ -298,7 +298,7 @@ TEST(SumsBetweenRows, OfATypeMayBeContributionsOfTheSizeOfARow) {
         EXPECT_EQ(report.subject.budgets[0].rows.size(), table.find("Calibration,0.2") == table.npos ? 5U : 4U);
         EXPECT_EQ(first_of(report, "K01"), nullptr);
         EXPECT_EQ(first_of(report, "K09"), nullptr);
-        EXPECT_FALSE(tells(report, "is taken for a sum"));
+        EXPECT_FALSE(leaves_unread(report, "is taken for a sum"));
     }
     // They are sums where what is stated follows without them, and where several rows make up one of two.
     const std::string of_one =
@@ -338,8 +338,8 @@ TEST(PlainTables, EndWithTheirResultsWhateverTheirNames) {
         ASSERT_TRUE(sound.subject.budgets[0].claims.U);
         EXPECT_EQ(sound.subject.budgets[0].claims.U->text, "1.72");
         if (other != "U(f) (k = 2)") {  // which is U by its name
-            EXPECT_TRUE(tells(sound, "is taken for u_c of the rows above it"));
-            EXPECT_TRUE(tells(sound, "is taken for U of the rows above it"));
+            EXPECT_TRUE(leaves_unread(sound, "is taken for u_c of the rows above it"));
+            EXPECT_TRUE(leaves_unread(sound, "is taken for U of the rows above it"));
         }
         EXPECT_EQ(critical_of(sound), "");
         const AuditReport planted = audit_of_sums(rows + one + ",0.86\n" + other + ",1.20\n");
@@ -363,12 +363,12 @@ TEST(PlainTables, HaveNoResultsByChance) {
         const AuditReport open = audit_of_sums(std::string("Quantity,u / %\n") + rows);
         SCOPED_TRACE(rows);
         EXPECT_TRUE(open.results.empty());
-        EXPECT_TRUE(tells(open, "may be the result of the rows above it, or one more contribution"));
+        EXPECT_TRUE(leaves_unread(open, "may be the result of the rows above it, or one more contribution"));
     }
     const AuditReport named = audit_of_sums("Quantity,u / %\nWeighing,0.3\nVolume,0.3\nSum,0.4\n2 × Sum,0.8\n");
     ASSERT_EQ(named.results.size(), 1U);
     EXPECT_EQ(named.subject.budgets[0].rows.size(), 2U);
-    EXPECT_TRUE(tells(named, "is taken for U of the rows above it"));
+    EXPECT_TRUE(leaves_unread(named, "is taken for U of the rows above it"));
     // Where U is stated, no other line is it; and none is u_c, unless the rows above it give what is stated.
     for (const char* rows :
          {"Reference thermometer,0.02\nu_stab,0.02\nGradient,0.03\nu_res,0.06\nExpanded uncertainty,0.15\n",
@@ -432,7 +432,7 @@ TEST(ResultsBesideEachOther, AreWhatTheirHeadsSay) {
     // What stands behind them, and nobody understands, is named.
     const AuditReport behind =
         audit_of_sums(rows + "\nResult,Unit,u_c,k,U\nDeviation,mN·m,0.186,2,0.37\nSafety margin,mN·m,,,0.5\n");
-    EXPECT_TRUE(tells(behind, "\"Safety margin\" has a number, and is no row and no statement that is known"));
+    EXPECT_TRUE(leaves_unread(behind, "\"Safety margin\" has a number, and is no row and no statement that is known"));
     // Of several points nobody knows which one the rows are of.
     const AuditReport points = audit_of_sums(rows + "\nPoint,u_c,k,U\n10,0.186,2,0.37\n20,0.190,2,0.38\n");
     ASSERT_EQ(points.results.size(), 1U);
@@ -708,7 +708,7 @@ TEST(Heads, ThatStandAgainKeepWhatOtherTablesState) {
 TEST(Heads, AreNoRowBelowThem) {
     const AuditReport report = audit_of_sums(
         "Mass\nQuantity,u / mg,\nBalance,≈ 0.20,certificate\nStandard,0.10,\nDrift,0.05,\nU (k = 2),0.46,\n");
-    EXPECT_TRUE(tells(report, "\"≈ 0.20\" is no number; what is meant?"));
+    EXPECT_TRUE(leaves_unread(report, "\"≈ 0.20\" is no number; what is meant?"));
     EXPECT_EQ(first_of(report, "K01"), nullptr);
 }
 

@@ -439,7 +439,7 @@ private:
     std::uint64_t state_;
 };
 
-enum class Layout { one_unit_column, units_in_cells, units_in_heads, unit_columns };
+enum class UnitLayout { one_unit_column, units_in_cells, units_in_heads, unit_columns };
 
 /// A table, line by line. Numbers are texts in the language of the table.
 class TableWriter {
@@ -447,7 +447,7 @@ public:
     TableWriter(const Drawn& drawn, const Kind& kind, Draw* draw) : drawn_(drawn), kind_(kind), draw_(draw) {
         german_ = draw_ != nullptr && draw_->yes();
         sign_ = german_ ? ',' : '.';
-        layout_ = draw_ == nullptr ? Layout::one_unit_column : static_cast<Layout>(draw_->below(4));
+        layout_ = draw_ == nullptr ? UnitLayout::one_unit_column : static_cast<UnitLayout>(draw_->below(4));
     }
 
     std::vector<std::vector<std::string>> lines() {
@@ -489,17 +489,17 @@ private:
                           c = say("sensitivity", "Empfindlichkeit"), contribution = say("contribution", "Beitrag"),
                           nu = say("nu", "Freiheitsgrade"), unit = say("unit", "Einheit");
         switch (layout_) {
-            case Layout::one_unit_column:
+            case UnitLayout::one_unit_column:
                 all.push_back({quantity, unit, stated, divisor, shape, u, c, contribution, nu});
                 break;
-            case Layout::units_in_cells:
+            case UnitLayout::units_in_cells:
                 all.push_back({quantity, stated, divisor, shape, u, c, contribution, nu});
                 break;
-            case Layout::units_in_heads:
+            case UnitLayout::units_in_heads:
                 all.push_back({quantity, stated + " [" + of_rows.first + "]", divisor, shape,
                                u + " [" + of_u.first + "]", c, contribution + " [" + of_contributions.first + "]", nu});
                 break;
-            case Layout::unit_columns:
+            case UnitLayout::unit_columns:
                 all.push_back({quantity, stated, unit, divisor, shape, u, unit, c, contribution, unit, nu});
                 break;
         }
@@ -511,7 +511,7 @@ private:
             const Decimal& contributed = drawn_.contributions[i];
             const Unit kelvin{"K", 0}, millikelvin{"mK", -3};
             switch (layout_) {
-                case Layout::one_unit_column: {
+                case UnitLayout::one_unit_column: {
                     // Rows and contributions in one unit; a coefficient per kelvin is one of that unit.
                     const Unit own = row.of_temperature ? kelvin : of_rows;
                     all.push_back({name, own.first, number(row.stated, own), row.divisor, form,
@@ -519,7 +519,7 @@ private:
                                    number(contributed, of_rows), row.nu});
                     break;
                 }
-                case Layout::units_in_cells: {
+                case UnitLayout::units_in_cells: {
                     const Unit a = row.of_temperature ? (draw_->yes() ? kelvin : millikelvin) : any_unit();
                     const Unit b = row.of_temperature ? (draw_->yes() ? kelvin : millikelvin) : any_unit();
                     const Unit of_c = any_unit();
@@ -528,7 +528,7 @@ private:
                                    with_unit(contributed, any_unit()), row.nu});
                     break;
                 }
-                case Layout::units_in_heads:
+                case UnitLayout::units_in_heads:
                     // A row of another kind has its unit in its cells.
                     all.push_back({name,
                                    row.of_temperature ? with_unit(row.stated, kelvin) : number(row.stated, of_rows),
@@ -537,7 +537,7 @@ private:
                                    row.of_temperature ? number(drawn_.c, of_contributions) : one,
                                    number(contributed, of_contributions), row.nu});
                     break;
-                case Layout::unit_columns: {
+                case UnitLayout::unit_columns: {
                     const Unit a = row.of_temperature ? kelvin : any_unit(),
                                b = row.of_temperature ? kelvin : any_unit();
                     const Unit of_y = any_unit();
@@ -585,7 +585,7 @@ private:
     Draw* draw_;  ///< none: everything in one unit, in English
     bool german_ = false;
     char sign_ = '.';
-    Layout layout_ = Layout::one_unit_column;
+    UnitLayout layout_ = UnitLayout::one_unit_column;
 };
 
 std::string csv_of(const std::vector<std::vector<std::string>>& lines, char separator) {

@@ -201,5 +201,22 @@ TEST(CertifiedTables, HoldARotaryTable) {
     }
 }
 
+TEST(CertifiedTables, ShowAVerdictWhereTheyShowTheLimits) {
+    CertifiedTable table;
+    EXPECT_FALSE(shows_verdict(table, "E")) << "no layout";
+    table.layout.emplace();
+    const auto show = [&](const char* what, const char* of) {
+        table.layout->shown.emplace_back();
+        table.layout->shown.back().show = what;
+        table.layout->shown.back().of = of;
+    };
+    show("verdict", "E");
+    show("limit", "F");
+    EXPECT_FALSE(shows_verdict(table, "E")) << "limits of another result";
+    show("limit_high", "E");
+    EXPECT_TRUE(shows_verdict(table, "E"));
+    EXPECT_FALSE(shows_verdict(table, "F"));
+}
+
 }  // namespace
 }  // namespace gumcert::reports

@@ -46,11 +46,11 @@ json wording_file(const std::string& language) {
 }
 
 /// Path and text of every key of a wording file.
-std::map<std::string, std::string> texts_of(const json& object, const std::string& path = "") {
+std::map<std::string, std::string> texts_by_key(const json& object, const std::string& path = "") {
     std::map<std::string, std::string> all;
     for (const auto& [key, value] : object.items()) {
         if (value.is_object()) {
-            all.merge(texts_of(value, path + "/" + key));
+            all.merge(texts_by_key(value, path + "/" + key));
         } else {
             all[path + "/" + key] = value.get<std::string>();
         }
@@ -118,10 +118,10 @@ TEST(Languages, NoNameLeadsToATextWithPlacesToFill) {
 }
 
 TEST(WordingFiles, HaveTheSameKeysAndPlaceholders) {
-    const std::map<std::string, std::string> english = texts_of(wording_file("en"));
+    const std::map<std::string, std::string> english = texts_by_key(wording_file("en"));
     EXPECT_GT(english.size(), 600U);
     for (const std::string& language : k_four_languages) {
-        const std::map<std::string, std::string> texts = texts_of(wording_file(language));
+        const std::map<std::string, std::string> texts = texts_by_key(wording_file(language));
         EXPECT_EQ(texts.at("/language"), language);
         EXPECT_EQ(texts.at("/document/decimal_sign"), sign_of(language));
         for (const auto& [path, text] : english) {
@@ -141,7 +141,7 @@ TEST(WordingFiles, HaveTheSameKeysAndPlaceholders) {
 
 TEST(WordingFiles, HoldTextsAndNothingThatMisleads) {
     for (const std::string& language : k_four_languages) {
-        for (const auto& [path, text] : texts_of(wording_file(language))) {
+        for (const auto& [path, text] : texts_by_key(wording_file(language))) {
             EXPECT_EQ(printable(text), text) << language << " " << path;
         }
     }

@@ -64,7 +64,7 @@ bool warns(const RotaryTableSolution& solution) {
 }
 
 TEST(PlantedBlunders, InterchangedReflectorsAreNamed) {
-    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    for (std::uint64_t seed = 1; seed <= test::cases<std::uint64_t>(2, 4); ++seed) {
         const Planted all = plant(Blunder::swapped_reflectors, seed);
         const auto pair = std::minmax(all.reflector, all.other);
         const std::string names = "the reflectors " + all.measurement.reflectors[pair.first] + " and " +
@@ -496,7 +496,7 @@ TEST(PlantedBlunders, AnInterruptedBeamOfAStationWithSeveralDeadPathsIsNamedWith
 
 /// Moved between its runs, a station would otherwise be charged to the table: as its repeatability, sense by sense.
 TEST(PlantedBlunders, AStationThatIsMovedBetweenItsRunsIsNamed) {
-    for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    for (std::uint64_t seed = 1; seed <= test::cases<std::uint64_t>(3, 8); ++seed) {
         const Planted planted = plant(Blunder::moved_station, seed, 12);
         const RotaryTableSolution solution = evaluated(planted.measurement);
         const GroupTest& first = first_group(solution);
@@ -507,7 +507,7 @@ TEST(PlantedBlunders, AStationThatIsMovedBetweenItsRunsIsNamed) {
 
 /// The distances of one line of sight are off alike: they are left out one by one, and their cause is told all the same.
 TEST(PlantedBlunders, AStationAndAReflectorThatDisagreeAreNamed) {
-    for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    for (std::uint64_t seed = 1; seed <= test::cases<std::uint64_t>(3, 8); ++seed) {
         const Planted planted = plant(Blunder::pair, seed, 12);
         const RotaryTableSolution solution = evaluated(planted.measurement);
         const GroupTest& first = first_group(solution);
@@ -523,7 +523,7 @@ TEST(PlantedBlunders, AStationAndAReflectorThatDisagreeAreNamed) {
 /// A reflector whose holder gives way was length noise, three times what it is, and the results were wrong by up to seven
 /// times their uncertainty.
 TEST(PlantedBlunders, AReflectorThatStandsElsewhereInAPartOfTheTurnIsNamed) {
-    for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    for (std::uint64_t seed = 1; seed <= test::cases<std::uint64_t>(3, 8); ++seed) {
         const Planted planted = plant(Blunder::leaning_reflector, seed, 12);
         const RotaryTableSolution solution = evaluated(planted.measurement);
         const GroupTest& first = first_group(solution);
@@ -552,7 +552,7 @@ TEST(PlantedBlunders, AReflectorThatGivesWayByMillimetresIsNoWrongCoordinate) {
 
 /// Nor are pairs, dead paths or the fixture accused of a reflector that was touched once.
 TEST(PlantedBlunders, AReflectorThatIsMovedForGoodIsNamed) {
-    for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    for (std::uint64_t seed = 1; seed <= test::cases<std::uint64_t>(3, 8); ++seed) {
         const Planted planted = plant(Blunder::moved_reflector, seed, 12);
         const RotaryTableSolution solution = evaluated(planted.measurement);
         const GroupTest& first = first_group(solution);

@@ -15,6 +15,7 @@
 
 #include "certificate/certificate_fields.h"
 #include "gum/quantity/diagnostic.h"
+#include "reports/record/certified_tables.h"
 #include "tests/unit/reports/certified_sample.h"
 
 namespace gumcert::reports {
@@ -249,7 +250,7 @@ TEST(AmendedRecord, GivesNumbersOfScopesAndLimitsTheirUnits) {
     }
 }
 
-/// Where the table of results shows the verdicts the certificate has no table of them.
+/// Where the table of results shows limits and verdicts the certificate has no table of them.
 TEST(AmendedRecord, TellsNothingOfADecisionThatIsNotPrinted) {
     certificate::Certificate earlier = certificate_with_layout();
     certificate::ShownColumn verdict;
@@ -272,6 +273,11 @@ TEST(AmendedRecord, TellsNothingOfADecisionThatIsNotPrinted) {
     EXPECT_EQ(changed([](V& v) -> std::string& { return v.printed.test_uncertainty_ratio; }), "");
     EXPECT_NE(changed([](V& v) -> std::string& { return v.printed.upper; }), "");
     EXPECT_NE(changed([](V& v) -> std::string& { return v.verdict; }), "");
+    // Without the limits there is one: it stands beside the verdicts of the table of results.
+    std::erase_if(earlier.tables.front().layout->shown, [](const auto& column) { return column.show == "limit"; });
+    ASSERT_FALSE(shows_verdict(earlier.tables.front(), "E"));
+    EXPECT_NE(changed([](V& v) -> std::string& { return v.printed.acceptance_upper; }), "");
+    EXPECT_NE(changed([](V& v) -> std::string& { return v.printed.conformance_probability; }), "");
 }
 
 TEST(AmendedRecord, BeginsWithTheItemAndGivesNumbersTheirUnits) {
