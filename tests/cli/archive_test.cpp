@@ -321,10 +321,16 @@ TEST_F(ArchiveOfALaboratory, AmendsTheReportOfAComparison) {
     EXPECT_TRUE(tells(gumcert({"archive", "verify", evidence, "--share", GUMCERT_SOURCE_DIR}), "CMP-2026-3/A1"));
     EXPECT_EQ(verified_elsewhere({evidence}).code, 0);
 
-    EXPECT_TRUE(tells(gumcert({"render", path("first-record.json"), "--format", "text", "-o", "-", "--superseded-by",
-                               path("second-record.json"), "--share", GUMCERT_SOURCE_DIR}),
-                      "the report of a comparison"))
-        << "a report is not printed as superseded";
+    // A report is printed as superseded by the one that replaces it, and by no other; the archive takes no such page.
+    const auto superseded_by = [&](const std::string& record) {
+        return gumcert({"render", path("first-record.json"), "--format", "html", "-o", path("first.html"),
+                        "--superseded-by", path(record), "--share", GUMCERT_SOURCE_DIR});
+    };
+    EXPECT_TRUE(tells(superseded_by("first-record.json"), "not the record of an amendment"));
+    const Ended marked = superseded_by("second-record.json");
+    ASSERT_EQ(marked.code, 0) << marked.err;
+    EXPECT_TRUE(has(bytes_of(path("first.html")), "SUPERSEDED by CMP-2026-3/A1"));
+    EXPECT_TRUE(tells(brought_in("add", {path("first-record.json"), path("first.html")}), "[GC-ARCHIVE-0038]"));
 
     // Another kind of document, and another record of the original.
     change_certificate([](json& c) {
@@ -335,6 +341,7 @@ TEST_F(ArchiveOfALaboratory, AmendsTheReportOfAComparison) {
                           {"changes", {"serial number"}}};
     });
     evaluate("certificate");
+    EXPECT_TRUE(tells(superseded_by("certificate.json"), "a certificate, and what is printed is the report"));
     EXPECT_TRUE(tells(archive(this->files("amend", "certificate"), "R. Lin"), "which is the report of a comparison"));
     job["certificate"]["number"] = "CMP-2026-3/A1/A1";
     job["certificate"]["amendment"]["number"] = "CMP-2026-3/A1";
