@@ -20,7 +20,7 @@ using ReferenceKind = StandardReference::Kind;
 
 /// Whether everything below a key is looked at: what names standards, files of the job, days of the work.
 bool is_looked_at(std::string_view key) {
-    static constexpr std::array<std::string_view, 6> k_keys{"dates",  "files",    "sensor",
+    static constexpr std::array<std::string_view, 7> k_keys{"dates",  "files",    "issuer",   "sensor",
                                                             "source", "standard", "standards"};
     return std::find(k_keys.begin(), k_keys.end(), key) != k_keys.end();
 }
@@ -312,9 +312,14 @@ std::optional<RecordReferences> references_of(std::string_view record) {
     collector.walk(value);
     const nlohmann::json& dates =
         gumcert::json::part_of(gumcert::json::part_of(gumcert::json::part_of(value, "certificate"), "data"), "dates");
+    std::string used_to = first_stated(dates, {"performed_to", "performed_from", "authorised", "issued"});
+    if (used_to.empty()) {  // of the report of a comparison
+        used_to = gumcert::json::text_of(gumcert::json::part_of(gumcert::json::part_of(value, "comparison"), "issuer"),
+                                         "issued");
+    }
     return RecordReferences{.references = std::move(collector).references(),
                             .used_from = gumcert::json::text_of(dates, "performed_from"),
-                            .used_to = first_stated(dates, {"performed_to", "performed_from", "authorised", "issued"})};
+                            .used_to = std::move(used_to)};
 }
 
 bool names(std::string_view text, std::string_view name) {

@@ -189,6 +189,8 @@ TEST(RecordReferences, TakeNoDayOfIssueForTheFirstDayOfTheWork) {
     EXPECT_EQ(days_of(R"({"performed_to": "2026-05-04", "issued": "2026-05-06"})"), "/2026-05-04");
     EXPECT_EQ(days_of(R"({"performed_from": "2026-05-03", "issued": "2026-05-06"})"), "2026-05-03/2026-05-03");
     EXPECT_EQ(days_of("{}"), "/");
+    const auto of_report = references_of(R"({"comparison": {"issuer": {"number": "CMP-1", "issued": "2026-05-06"}}})");
+    EXPECT_EQ(of_report->used_from + "/" + of_report->used_to, "/2026-05-06") << "the report of a comparison";
 }
 
 using SaidTexts = std::set<std::pair<StandardReference::Kind, std::string>>;
