@@ -8,10 +8,12 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <string_view>
 #include <tuple>
 #include <utility>
 
 #include "archive/certificates/archive_files.h"
+#include "archive/certificates/report_changes.h"
 #include "archive/certificates/texts_of_records.h"
 #include "evaluation/recompute_record.h"
 #include "gum/monte_carlo/worker_threads.h"
@@ -59,6 +61,10 @@ public:
             [&](const std::map<std::string, CertificateLife>& lives) {
                 for (const auto& [number, life] : lives) {
                     numbers_.insert(number);
+                    const auto later = lives.find(life.later);
+                    if (later != lives.end() && later->second.state == k_withdrawn) {
+                        withdrawn_amendments_[number] = life.later;
+                    }
                 }
             },
             [&](const ListedCertificate& certificate, std::string bytes) {
@@ -85,8 +91,15 @@ public:
         return original + "/A" + std::to_string(ordinal);
     }
 
+    /// What took the place of a certificate and was withdrawn; "" where nothing did.
+    [[nodiscard]] std::string withdrawn_amendment(const std::string& number) const {
+        const auto found = withdrawn_amendments_.find(number);
+        return found == withdrawn_amendments_.end() ? "" : found->second;
+    }
+
 private:
-    std::set<std::string> numbers_;  // of all certificates, with a record or without
+    std::set<std::string> numbers_;                            // of all certificates, with a record or without
+    std::map<std::string, std::string> withdrawn_amendments_;  // by the number of what they took the place of
     gum::WorkerThreads threads_;
     const gum::Progress& progress_;
     std::vector<SearchedRecord> found_;
@@ -251,6 +264,8 @@ double largest_shift(const nlohmann::json& before, const nlohmann::json& now) {
     return largest;
 }
 
+constexpr const char* k_changes_file = "changes.json";  // of a draft, beside its job
+
 /// Places for the files of a job in a folder of its own. Names that lead out of the folder of the job ("../laboratory")
 /// stay as they are: the job lies so much deeper.
 class DraftPlaces {
@@ -261,7 +276,8 @@ public:
             for (const auto& part : std::filesystem::path(file.name)) {
                 depth += part == ".." ? std::size_t{1} : 0;
             }
-            depth_ = std::max(depth_, depth);
+            const bool is_of_draft = std::filesystem::path(file.name).lexically_normal() == k_changes_file;
+            depth_ = std::max(depth_, is_of_draft ? std::size_t{1} : depth);
         }
     }
     [[nodiscard]] std::filesystem::path of(const std::string& name) const {
@@ -303,17 +319,37 @@ nlohmann::json shown_change_list(const Recalculation& recalculation) {
     return list;
 }
 
-/// What the certificates of two records state otherwise in words.
-std::vector<evaluation::RecordChange> texts_that_change(const reports::EvaluationRecord& before,
-                                                        const reports::EvaluationRecord& now) {
-    std::vector<evaluation::RecordChange> texts;
-    for (const certificate::Change& change : reports::changes_between(before, now)) {
-        if (change.kind == k_text &&
-            texts.size() < evaluation::k_most_changes) {  // numbers and verdicts are told by tell_changes()
-            texts.push_back({evaluation::ChangeKind::other, change.where, change.before, change.after});
+/// Whether a change is one of results, which tell_changes() tells; else it is one of the certificate data, its numbers (U of a
+/// standard) and codes among them, or of what stands around results.
+bool is_of_results(const certificate::Change& change, bool is_of_report) {
+    static constexpr std::array<std::string_view, 12> k_others{"text",    "flag",          "code",  "words",
+                                                               "heading", "role",          "stage", "title",
+                                                               "columns", "specification", "rule",  "group"};
+    const bool is_of_data = !is_of_report && change.where.starts_with('/');
+    return !is_of_data && std::ranges::find(k_others, change.kind) == k_others.end();
+}
+
+/// What a certificate or report states otherwise, as the list of an amendment has it.
+std::vector<certificate::Change> stated_changes(const reports::EvaluationRecord& before,
+                                                const reports::EvaluationRecord& now) {
+    return before.certificate && now.certificate ? reports::changes_between(before, now)
+           : before.comparison && now.comparison ? changes_of_report(before, now)
+                                                 : std::vector<certificate::Change>();
+}
+
+/// Tells what changes in the words around results, and whether results do.
+void tell_what_is_stated(const reports::EvaluationRecord& before, const reports::EvaluationRecord& now,
+                         Recalculation& result) {
+    for (const certificate::Change& change : stated_changes(before, now)) {
+        if (result.stated.size() < evaluation::k_most_changes) {
+            result.stated.push_back(change);
+        }
+        if (is_of_results(change, !before.certificate)) {
+            result.results_change = result.rerun.is_negative();  // beyond the last digits of unrounded numbers
+        } else if (result.texts.size() < evaluation::k_most_changes) {
+            result.texts.push_back({evaluation::ChangeKind::other, change.where, change.before, change.after});
         }
     }
-    return texts;
 }
 
 /// What the program says of the changes, in all languages of the document, which prints it.
@@ -342,12 +378,20 @@ nlohmann::ordered_json changes_in_words(const reports::EvaluationRecord& record,
     return all;
 }
 
+/// The file with the record of what a record amends itself, which is no part of its job; "" where there is none.
+std::string amended_record(const reports::EvaluationRecord& record) {
+    if (record.certificate && record.certificate->data.amendment) {
+        return record.certificate->data.amendment->record;
+    }
+    const bool is_report = record.comparison && record.comparison->issuer && record.comparison->issuer->amendment;
+    return is_report ? record.comparison->issuer->amendment->record : "";
+}
+
 /// Job, certificate data and all files of an amendment.
 /// \return none where the job cannot be written beside each other again
 std::vector<outputs::OutputFile> drafted_amendment(const AffectedCertificate& one, const std::string& original,
                                                    const reports::EvaluationRecord& corrected,
                                                    const Correction& correction) {
-    constexpr const char* record_name = "original_record.json";
     const DraftPlaces places(corrected.job_files);
     const std::filesystem::path folder = one.draft_name;
     std::map<std::string, std::string> files;
@@ -373,13 +417,20 @@ std::vector<outputs::OutputFile> drafted_amendment(const AffectedCertificate& on
     if (!certificate.is_object()) {
         return {};
     }
+    // The record of what it amends itself is no part of its job, and may have the name that a draft gave it.
+    files.erase(amended_record(corrected));
+    std::string record_name = "original_record.json";
+    for (int ordinal = 2; files.contains(record_name); ++ordinal) {
+        record_name = "original_record-" + std::to_string(ordinal) + ".json";
+    }
     certificate["number"] = one.draft_number;
-    certificate["amendment"] = {{"kind", "amended"},
-                                {"number", one.certificate.number},
-                                {"reason", correction.reason},
-                                {"changes", nlohmann::ordered_json::array({changes_in_words(
-                                                corrected, correction, one.recalculated->rerun.is_negative())})},
-                                {"record", record_name}};
+    certificate["amendment"] = {
+        {"kind", "amended"},
+        {"number", one.certificate.number},
+        {"reason", correction.reason},
+        {"changes",
+         nlohmann::ordered_json::array({changes_in_words(corrected, correction, one.recalculated->results_change)})},
+        {"record", record_name}};
     if (inside) {
         job["certificate"] = certificate;
     } else {
@@ -390,19 +441,87 @@ std::vector<outputs::OutputFile> drafted_amendment(const AffectedCertificate& on
         job["laboratory"] = "laboratory";
     }
     files[job_name] = written(job);
-    std::vector<outputs::OutputFile> draft;
+    files[record_name] = original;
+    std::map<std::filesystem::path, std::string> placed;
     for (const auto& [name, bytes] : files) {
-        draft.push_back({folder / places.of(name), bytes});
+        const auto [at, is_new] = placed.emplace(folder / places.of(name), bytes);
+        if (!is_new && at->second != bytes) {  // a folder that is named as that of the laboratory
+            return {};
+        }
     }
-    draft.push_back({folder / places.of(record_name), original});
+    std::vector<outputs::OutputFile> draft;
+    for (const auto& [place, bytes] : placed) {
+        draft.push_back({place, bytes});
+    }
+    nlohmann::json changes = nlohmann::json::array();  // as the log will have them
+    for (const certificate::Change& change : one.recalculated->stated) {
+        changes.push_back(
+            {{"kind", change.kind}, {"place", change.where}, {"before", change.before}, {"now", change.after}});
+    }
     draft.push_back(
-        {folder / "changes.json", gumcert::json::canonical_json({{"schema", "gumcert/archive-amendment-draft/1"},
+        {folder / k_changes_file, gumcert::json::canonical_json({{"schema", "gumcert/archive-amendment-draft/1"},
                                                                  {"number", one.draft_number},
                                                                  {"amends", one.certificate.number},
                                                                  {"reason", correction.reason},
                                                                  {"job", places.of(job_name).generic_string()},
-                                                                 {"changes", shown_change_list(*one.recalculated)}})});
+                                                                 {"changes", std::move(changes)},
+                                                                 {"not_corrected", one.recalculated->not_corrected}})});
     return draft;
+}
+
+/// Names of a standard: its identification, and its certificates in a file of the register.
+void add_names(const std::string& registered, std::vector<std::string>& names_of_standard) {
+    const nlohmann::json standard = nlohmann::json::parse(registered, nullptr, false, true);
+    for (const nlohmann::json& calibration : gumcert::json::part_of(standard, "calibrations")) {
+        if (std::string certificate = gumcert::json::text_of(calibration, "certificate"); !certificate.empty()) {
+            names_of_standard.push_back(std::move(certificate));
+        }
+    }
+}
+
+/// Where the job of a record states something of a standard itself.
+/// \param record  as it was issued
+std::vector<std::string> own_statements(const reports::EvaluationRecord& record, const std::string& standard) {
+    std::vector<std::string> names_of_standard{standard};
+    for (const reports::InputFile& file : record.job_files) {
+        if (standard_of_file(file.name) == standard) {
+            add_names(reports::bytes_of(file).value_or(""), names_of_standard);
+        }
+    }
+    const std::string amended = amended_record(record);
+    std::vector<std::string> places;
+    for (const reports::InputFile& file : record.job_files) {
+        if (standard_of_file(file.name).empty() && (amended.empty() || file.name != amended)) {
+            const nlohmann::json content =
+                nlohmann::json::parse(reports::bytes_of(file).value_or(""), nullptr, false, true);
+            for (const std::string& place : stated_by_hand(content, names_of_standard)) {
+                places.push_back(file.name + "#" + place);
+            }
+        }
+    }
+    return places;
+}
+
+/// Some places in words.
+std::string in_words(const std::vector<std::string>& places) {
+    constexpr std::size_t k_most = 3;
+    std::string words;
+    for (std::size_t i = 0; i < std::min(places.size(), k_most); ++i) {
+        words += (i > 0 ? ", " : "") + text::visible(places[i], 120);
+    }
+    return words + (places.size() > k_most ? " and " + std::to_string(places.size() - k_most) + " more" : "");
+}
+
+/// Why nothing can be said of a certificate that comes out the same: not all that rests on the standard was corrected. "" where
+/// it comes out otherwise, or all was.
+std::string why_it_is_not_the_same(const Recalculation& one, const std::string& waits_for) {
+    const bool decides_otherwise = one.rerun.count(evaluation::ChangeKind::verdict) > 0;
+    return one.states_otherwise() || decides_otherwise ? ""
+           : !one.not_corrected.empty() ? "with the corrected file it comes out the same, and its job states something "
+                                          "of the standard itself: " +
+                                              in_words(one.not_corrected)
+           : !waits_for.empty() ? "with the corrected file it comes out the same, and it rests on " + waits_for
+                                : "";
 }
 
 /// A record with the corrected standard among the files of its job, and what comes of it.
@@ -421,6 +540,7 @@ Recalculated recalculated(const std::string& number, const std::string& waits_fo
         record = std::move(read.record);
         rerun.made_by = record.software;
         rerun.kind = record.kind;
+        std::vector<std::string> own = own_statements(record, correction.standard);
         if (const std::optional<gum::Diagnostic> missing = evaluation::files_not_held(record, number)) {
             rerun.not_evaluated = cannot_say(number, missing->what);
         } else if (!correct_files(record, correction)) {
@@ -432,9 +552,13 @@ Recalculated recalculated(const std::string& number, const std::string& waits_fo
                 record, number, 1, correction.templates, correction.watch ? correction.watch() : gum::Progress());
             const nlohmann::json now = reports::to_json_value(again);
             evaluation::tell_changes(read.value, now, rerun);
-            done.result.texts = texts_that_change(record, again);
+            tell_what_is_stated(record, again, done.result);
             std::erase_if(rerun.changes, [](const evaluation::RecordChange& change) { return !is_shown(change); });
             done.result.shift = largest_shift(read.value, now);
+            done.result.not_corrected = std::move(own);
+            if (const std::string what = why_it_is_not_the_same(done.result, waits_for); !what.empty()) {
+                rerun.not_evaluated = cannot_say(number, what);
+            }
         }
     } catch (const gum::DiagnosedError& error) {
         rerun.not_evaluated = cannot_say(number, error.diagnostics().front().what);
@@ -446,8 +570,19 @@ bool is_before_issue(const std::string& state) {
     return state == "drafted" || state == "reviewed" || state == "authorised";
 }
 
+/// Of what changes in a record and not in what an amendment would state; "" where nothing does.
+std::string why_nothing_is_stated(const Recalculation& one) {
+    return one.rerun.not_evaluated || !one.rerun.is_negative() ? ""
+           : one.rerun.count(evaluation::ChangeKind::verdict) > 0
+               ? "it states the same outside of its annexes, and the program decides otherwise: evaluate its job with "
+                 "the "
+                 "corrected standard, and look at the findings"
+               : "it states the same outside of its annexes: digits of its budget alone change";
+}
+
 bool needs_amendment(const AffectedCertificate& one) {
-    return one.recalculated && one.recalculated->states_otherwise() && one.certificate.state == "issued";
+    return one.recalculated && one.recalculated->states_otherwise() &&
+           (one.certificate.state == "issued" || !one.withdrawn_amendment.empty());
 }
 
 /// Calculates a certificate again where that is not done, and drafts its amendment where one is needed.
@@ -464,7 +599,7 @@ void work_out(AffectedCertificate& one, const std::string& original, const Corre
     }
     if (!needs_amendment(one)) {
         one.no_draft =
-            !one.recalculated->states_otherwise() ? ""
+            !one.recalculated->states_otherwise() ? why_nothing_is_stated(*one.recalculated)
             : is_before_issue(one.certificate.state)
                 ? "it is " + one.certificate.state +
                       ", and not issued: evaluate its job with the corrected "
@@ -497,15 +632,16 @@ std::vector<std::string> originals_of(const std::vector<AffectedCertificate>& af
     return originals;
 }
 
-constexpr std::array<const char*, 5> k_outcomes = {"verdict", "printed", k_text, "cannot_say", "same"};
+constexpr std::array<const char*, 6> k_outcomes = {"verdict", "printed", k_text, "cannot_say", "budget", "same"};
 
 /// Index of k_outcomes: what a person reads first comes first.
 std::size_t index_of_outcome(const Recalculation& one) {
     return one.rerun.not_evaluated                                ? 3
            : one.rerun.count(evaluation::ChangeKind::verdict) > 0 ? 0
-           : one.rerun.count(evaluation::ChangeKind::printed) > 0 ? 1
+           : one.results_change                                   ? 1
            : !one.texts.empty()                                   ? 2
-                                                                  : 4;
+           : one.rerun.count(evaluation::ChangeKind::printed) > 0 ? 4
+                                                                  : 5;
 }
 
 auto rank_of(const AffectedCertificate& one) {
@@ -561,6 +697,7 @@ std::vector<AffectedCertificate> find_affected(Archive& archive, const WrongStan
     }
     std::vector<AffectedCertificate> affected;
     std::set<std::size_t> known;
+    std::map<std::size_t, std::size_t> places;  // in the answer, of records
     struct Wanted {
         std::string name, through, through_state;
     };
@@ -574,12 +711,14 @@ std::vector<AffectedCertificate> find_affected(Archive& archive, const WrongStan
         const ListedCertificate& certificate = records[i].certificate;
         const bool is_read = records[i].references.has_value();
         if (certificate.state != k_withdrawn) {
+            places[i] = affected.size();
             affected.push_back({.certificate = certificate,
                                 .used_from = is_read ? records[i].references->used_from : "",
                                 .used_to = is_read ? records[i].references->used_to : "",
                                 .because = std::move(because),
                                 .through = by.through,
                                 .through_state = by.through_state,
+                                .withdrawn_amendment = search.withdrawn_amendment(certificate.number),
                                 .draft_number = search.free_number(certificate.number)});
         }
         wanted.push_back({certificate.number, certificate.number, certificate.state});
@@ -596,10 +735,16 @@ std::vector<AffectedCertificate> find_affected(Archive& archive, const WrongStan
         for (const std::size_t i : texts.that_name(next.name)) {
             const SearchedRecord& record = records[i];
             // A standard that was calibrated with a wrong one stays wrong: only the first step has a last day.
-            if (record.certificate.number != next.name &&
-                is_in_period(*record.references, standard.since, next.through.empty() ? standard.until : "") &&
-                known.insert(i).second) {
+            if (record.certificate.number == next.name ||
+                !is_in_period(*record.references, standard.since, next.through.empty() ? standard.until : "")) {
+                continue;
+            }
+            const auto found = places.find(i);
+            if (known.insert(i).second) {
                 find(i, next, references_that_name(next.name, *record.references));
+            } else if (found != places.end() && !next.through.empty() && affected[found->second].also_through.empty()) {
+                affected[found->second].also_through = next.through;
+                affected[found->second].also_through_state = next.through_state;
             }
         }
     }
@@ -611,9 +756,10 @@ std::vector<AffectedCertificate> find_affected(Archive& archive, const WrongStan
 }
 
 std::string waits_for(const AffectedCertificate& certificate) {
-    return certificate.through.empty()                ? ""
-           : certificate.through_state == k_withdrawn ? certificate.through + ", which was withdrawn"
-                                                      : certificate.through + ", which is to be amended first";
+    const bool is_direct = certificate.through.empty();
+    const std::string& other = is_direct ? certificate.also_through : certificate.through;
+    const std::string& state = is_direct ? certificate.also_through_state : certificate.through_state;
+    return other.empty() ? "" : other + (state == k_withdrawn ? ", which was withdrawn" : ", which is listed, too");
 }
 
 Recalculation recalculation_of(const std::string& number, const std::string& waits_for, const std::string& original,
@@ -663,10 +809,26 @@ std::string affected_text(const std::vector<AffectedCertificate>& affected) {
         text += one.draft_folder.empty() ? "" : "  draft " + one.draft_folder;
         text += "\n    " + through_text(one) + word_of(one.because.front().kind) + " \"" +
                 text::visible(one.because.front().text, 120) + "\"\n";
+        if (!one.withdrawn_amendment.empty()) {
+            text += "    " + text::visible(one.withdrawn_amendment, 80) +
+                    ", which took its place, was withdrawn: amend it once more, or withdraw it\n";
+        }
         if (one.recalculated && one.recalculated->rerun.not_evaluated) {
             text += "    " + text::visible(one.recalculated->rerun.not_evaluated->what, 200) + "\n";
         }
-        text += one.no_draft.empty() ? "" : "    no draft: " + one.no_draft + "\n";
+        const std::string nothing_stated = one.recalculated && !one.recalculated->states_otherwise()
+                                               ? why_nothing_is_stated(*one.recalculated)
+                                               : std::string();
+        text += !nothing_stated.empty() ? "    " + nothing_stated + "\n"
+                : one.no_draft.empty()  ? ""
+                                        : "    no draft: " + one.no_draft + "\n";
+        if (one.recalculated && !one.recalculated->rerun.not_evaluated) {
+            const std::string waits = waits_for(one);
+            text += one.recalculated->not_corrected.empty() ? ""
+                                                            : "    not corrected, because its job states it itself: " +
+                                                                  in_words(one.recalculated->not_corrected) + "\n";
+            text += waits.empty() ? "" : "    it rests on " + text::visible(waits, 120) + "\n";
+        }
         constexpr std::size_t k_most_texts = 3;
         for (std::size_t i = 0; one.recalculated && i < std::min(one.recalculated->texts.size(), k_most_texts); ++i) {
             const evaluation::RecordChange& change = one.recalculated->texts[i];
@@ -697,6 +859,9 @@ std::string affected_json(const std::vector<AffectedCertificate>& affected, cons
                              {"because", std::move(because)},
                              {"through", one.through},
                              {"through_state", one.through_state},
+                             {"also_through", one.also_through},
+                             {"withdrawn_amendment", one.withdrawn_amendment},
+                             {"not_corrected", nlohmann::json::array()},
                              {"outcome", outcome_of(one)},
                              {"shift", nullptr},
                              {"changes", nlohmann::json::array()},
@@ -706,6 +871,7 @@ std::string affected_json(const std::vector<AffectedCertificate>& affected, cons
         if (one.recalculated) {
             const evaluation::RerunRecord& rerun = one.recalculated->rerun;
             shown["changes"] = shown_change_list(*one.recalculated);
+            shown["not_corrected"] = one.recalculated->not_corrected;
             if (rerun.not_evaluated) {
                 shown["cannot_say"] = rerun.not_evaluated->what;
             } else {

@@ -41,8 +41,15 @@ std::string as_text(const Recalculation& one) {
     for (const evaluation::RecordChange& change : one.texts) {
         texts.push_back({change.place, change.before, change.now});
     }
+    json stated = json::array();
+    for (const certificate::Change& change : one.stated) {
+        stated.push_back({change.kind, change.where, change.before, change.after});
+    }
     return dumped({{"changes", std::move(changes)},
+                   {"stated", std::move(stated)},
                    {"texts", std::move(texts)},
+                   {"results_change", one.results_change},
+                   {"not_corrected", one.not_corrected},
                    {"counts", one.rerun.counts},
                    {"made_by", {one.rerun.made_by.version, one.rerun.made_by.commit}},
                    {"kind", one.rerun.kind},
@@ -56,11 +63,19 @@ Recalculation recalculation_in(const std::string& number, const std::string& tex
     one.rerun.made_by.version = value.at("made_by").at(0).get<std::string>();
     one.rerun.made_by.commit = value.at("made_by").at(1).get<std::string>();
     one.rerun.kind = gumcert::json::text_of(value, "kind");
+    one.results_change = value.at("results_change").get<bool>();
+    one.not_corrected = value.at("not_corrected").get<std::vector<std::string>>();
     value.at("counts").get_to(one.rerun.counts);
     for (const json& change : value.at("changes")) {
         one.rerun.changes.push_back({static_cast<evaluation::ChangeKind>(change.at(0).get<int>()),
                                      change.at(1).get<std::string>(), change.at(2).get<std::string>(),
                                      change.at(3).get<std::string>()});
+    }
+    for (const json& change : value.at("stated")) {
+        one.stated.push_back({.kind = change.at(0).get<std::string>(),
+                              .where = change.at(1).get<std::string>(),
+                              .before = change.at(2).get<std::string>(),
+                              .after = change.at(3).get<std::string>()});
     }
     for (const json& change : value.at("texts")) {
         one.texts.push_back({evaluation::ChangeKind::other, change.at(0).get<std::string>(),

@@ -171,6 +171,54 @@ private:
     }
 };
 
+/// Looks for what a file of a job states of a standard itself.
+class OwnStatements {
+public:
+    explicit OwnStatements(const std::vector<std::string>& standard) : standard_(standard) {}
+
+    void walk(const nlohmann::json& value, const nlohmann::json::json_pointer& at) {
+        if (!value.is_structured()) {
+            return;
+        }
+        const bool is_registered = value.is_object() && names_it(gumcert::json::part_of(value, "standard"));
+        std::size_t row = 0;
+        for (const auto& item : value.items()) {
+            const nlohmann::json::json_pointer place = value.is_array() ? at / row++ : at / item.key();
+            const bool is_source = value.is_object() && (item.key() == "source" || item.key() == "sensor");
+            if (is_source && !is_registered && names_it(item.value())) {
+                places_.push_back(place.to_string());
+            } else if (value.is_object() && item.key() == "standards" && item.value().is_array()) {
+                look_at_rows(item.value(), place);
+            } else {
+                walk(item.value(), place);
+            }
+        }
+    }
+    [[nodiscard]] std::vector<std::string> places() && { return std::move(places_); }
+
+private:
+    const std::vector<std::string>& standard_;
+    std::vector<std::string> places_;
+
+    /// Of a text, or of texts in several languages.
+    [[nodiscard]] bool names_it(const nlohmann::json& value) const {
+        if (value.is_string()) {
+            return std::ranges::any_of(
+                standard_, [&](const std::string& name) { return names(value.get_ref<const std::string&>(), name); });
+        }
+        return value.is_structured() &&
+               std::any_of(value.begin(), value.end(), [&](const nlohmann::json& item) { return names_it(item); });
+    }
+    void look_at_rows(const nlohmann::json& rows, const nlohmann::json::json_pointer& at) {
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            if (rows[i].is_object() && (names_it(gumcert::json::part_of(rows[i], "identification")) ||
+                                        names_it(gumcert::json::part_of(rows[i], "certificate")))) {
+                places_.push_back((at / i).to_string());
+            }
+        }
+    }
+};
+
 std::string first_stated(const nlohmann::json& dates, const std::array<const char*, 4>& keys) {
     for (const char* const key : keys) {
         if (std::string day = gumcert::json::text_of(dates, key); !day.empty()) {
@@ -320,6 +368,12 @@ std::optional<RecordReferences> references_of(std::string_view record) {
     return RecordReferences{.references = std::move(collector).references(),
                             .used_from = gumcert::json::text_of(dates, "performed_from"),
                             .used_to = std::move(used_to)};
+}
+
+std::vector<std::string> stated_by_hand(const nlohmann::json& file, const std::vector<std::string>& standard) {
+    OwnStatements own(standard);
+    own.walk(file, nlohmann::json::json_pointer());
+    return std::move(own).places();
 }
 
 bool names(std::string_view text, std::string_view name) {

@@ -193,6 +193,24 @@ TEST(RecordReferences, TakeNoDayOfIssueForTheFirstDayOfTheWork) {
     EXPECT_EQ(of_report->used_from + "/" + of_report->used_to, "/2026-05-06") << "the report of a comparison";
 }
 
+/// Numbers that a job takes from the register are corrected with it, those beside a source are not.
+TEST(JobFile, TellsWhatItStatesOfAStandardItself) {
+    const json job = json::parse(R"({
+        "inputs": {
+            "a": {"standard": "STD-1", "source": "STD-1, with its drift"},
+            "b": {"value": 1, "u": 2, "source": "STD-1, certificate 7"},
+            "c": {"components": [{"u": 1, "source": {"en": "drift", "de": "Drift von STD-1"}}, {"source": "STD-12"}]},
+            "d": {"standard": "STD-2", "source": "compared with STD-1"}},
+        "title": "STD-1",
+        "standards": ["STD-1", {"identification": "STD-1", "U": 3}, {"certificate": "C-7"}, {"certificate": "C-77"}],
+        "conditions": [{"sensor": "STD-1"}]})");
+    EXPECT_EQ(stated_by_hand(job, {"STD-1", "C-7"}),
+              (std::vector<std::string>{"/conditions/0/sensor", "/inputs/b/source", "/inputs/c/components/0/source",
+                                        "/inputs/d/source", "/standards/1", "/standards/2"}));
+    EXPECT_TRUE(stated_by_hand(json(), {"STD-1"}).empty());
+    EXPECT_TRUE(stated_by_hand(job, {"STD-3"}).empty());
+}
+
 using SaidTexts = std::set<std::pair<StandardReference::Kind, std::string>>;
 
 void add_texts(const json& value, StandardReference::Kind kind, SaidTexts& said) {
