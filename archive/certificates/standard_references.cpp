@@ -131,7 +131,8 @@ public:
         if (const nlohmann::json& content = gumcert::json::part_of(file, "content"); content.is_string()) {
             held.content = content.get<std::string>();
         }
-        const nlohmann::json standard = nlohmann::json::parse(reports::bytes_of(held).value_or(""), nullptr, false);
+        const nlohmann::json standard =
+            nlohmann::json::parse(reports::bytes_of(held).value_or(""), nullptr, false, true);
         const nlohmann::json& calibrations = gumcert::json::part_of(standard, "calibrations");
         for (const nlohmann::json& calibration : calibrations.is_array() ? calibrations : nlohmann::json::array()) {
             take(ReferenceKind::registered, gumcert::json::text_of(calibration, "certificate"));

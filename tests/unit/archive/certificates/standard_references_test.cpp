@@ -161,7 +161,9 @@ TEST(RecordReferences, AreTakenFromEveryPlace) {
          {{"files",
            {{{"name", "standards/STD-4.json"},
              {"encoding", "utf-8"},
-             {"content", R"({"calibrations": [{"certificate": "NMI-4"}]})"}}}},
+             {"content",
+              "// as files of jobs may have\n"
+              R"({"calibrations": [{"certificate": "NMI-4"}]})"}}}},
           {"document", {{"inputs", {{"x", {{"source", {{"en", "STD-5"}, {"de", "Normal STD-5"}}}}}}}}}}}};
     const std::optional<RecordReferences> found = references_of(record.dump());
     ASSERT_TRUE(found);
