@@ -45,6 +45,10 @@ std::launch beside(const gum::WorkerThreads& threads) {
     return threads.size() > 1 ? std::launch::async : std::launch::deferred;
 }
 
+bool is_before_issue(const std::string& state) {
+    return state == "drafted" || state == "reviewed" || state == "authorised";
+}
+
 /// A record that was read, without its bytes.
 struct SearchedRecord {
     ListedCertificate certificate;
@@ -63,7 +67,10 @@ public:
                     numbers_.insert(number);
                     const auto later = lives.find(life.later);
                     if (later != lives.end() && later->second.state == k_withdrawn) {
-                        withdrawn_amendments_[number] = life.later;
+                        withdrawn_amendments_[number] = {life.later, later->second.record};
+                    }
+                    if (!life.amends.empty() && is_before_issue(life.state)) {
+                        under_way_[life.amends] = number;
                     }
                 }
             },
@@ -91,15 +98,25 @@ public:
         return original + "/A" + std::to_string(ordinal);
     }
 
-    /// What took the place of a certificate and was withdrawn; "" where nothing did.
-    [[nodiscard]] std::string withdrawn_amendment(const std::string& number) const {
+    struct Amendment {
+        std::string number, record;
+    };
+    /// What took the place of a certificate and was withdrawn; without a number where nothing did.
+    [[nodiscard]] Amendment withdrawn_amendment(const std::string& number) const {
         const auto found = withdrawn_amendments_.find(number);
-        return found == withdrawn_amendments_.end() ? "" : found->second;
+        return found == withdrawn_amendments_.end() ? Amendment() : found->second;
+    }
+
+    /// The last one that amends or replaces a certificate and is not issued yet; "" where there is none.
+    [[nodiscard]] std::string amendment_under_way(const std::string& number) const {
+        const auto found = under_way_.find(number);
+        return found == under_way_.end() ? "" : found->second;
     }
 
 private:
-    std::set<std::string> numbers_;                            // of all certificates, with a record or without
-    std::map<std::string, std::string> withdrawn_amendments_;  // by the number of what they took the place of
+    std::set<std::string> numbers_;                          // of all certificates, with a record or without
+    std::map<std::string, Amendment> withdrawn_amendments_;  // by the number of what they took the place of
+    std::map<std::string, std::string> under_way_;           // by the number of what they amend
     gum::WorkerThreads threads_;
     const gum::Progress& progress_;
     std::vector<SearchedRecord> found_;
@@ -337,10 +354,32 @@ std::vector<certificate::Change> stated_changes(const reports::EvaluationRecord&
                                                  : std::vector<certificate::Change>();
 }
 
+auto content_of(const certificate::Change& change) {
+    return std::tie(change.kind, change.where, change.before, change.after);
+}
+
+auto content_of(const evaluation::RecordChange& change) {
+    return std::tie(change.kind, change.place, change.before, change.now);
+}
+
+/// Takes those changes out that stand among others, too, and gives them.
+template <typename Change>
+std::vector<Change> taken_out(std::vector<Change>& changes, const std::vector<Change>& others) {
+    std::set<decltype(content_of(others.front()))> known;
+    for (const Change& other : others) {
+        known.insert(content_of(other));
+    }
+    const auto first = std::stable_partition(changes.begin(), changes.end(),
+                                             [&](const Change& one) { return !known.contains(content_of(one)); });
+    std::vector<Change> taken(std::make_move_iterator(first), std::make_move_iterator(changes.end()));
+    changes.erase(first, changes.end());
+    return taken;
+}
+
 /// Tells what changes in the words around results, and whether results do.
-void tell_what_is_stated(const reports::EvaluationRecord& before, const reports::EvaluationRecord& now,
+void tell_what_is_stated(const reports::EvaluationRecord& before, const std::vector<certificate::Change>& changes,
                          Recalculation& result) {
-    for (const certificate::Change& change : stated_changes(before, now)) {
+    for (const certificate::Change& change : changes) {
         if (result.stated.size() < evaluation::k_most_changes) {
             result.stated.push_back(change);
         }
@@ -385,6 +424,16 @@ std::string amended_record(const reports::EvaluationRecord& record) {
     }
     const bool is_report = record.comparison && record.comparison->issuer && record.comparison->issuer->amendment;
     return is_report ? record.comparison->issuer->amendment->record : "";
+}
+
+/// As the log will have them.
+nlohmann::json change_list(const std::vector<certificate::Change>& changes) {
+    nlohmann::json list = nlohmann::json::array();
+    for (const certificate::Change& change : changes) {
+        list.push_back(
+            {{"kind", change.kind}, {"place", change.where}, {"before", change.before}, {"now", change.after}});
+    }
+    return list;
 }
 
 /// Job, certificate data and all files of an amendment.
@@ -453,19 +502,15 @@ std::vector<outputs::OutputFile> drafted_amendment(const AffectedCertificate& on
     for (const auto& [place, bytes] : placed) {
         draft.push_back({place, bytes});
     }
-    nlohmann::json changes = nlohmann::json::array();  // as the log will have them
-    for (const certificate::Change& change : one.recalculated->stated) {
-        changes.push_back(
-            {{"kind", change.kind}, {"place", change.where}, {"before", change.before}, {"now", change.after}});
-    }
-    draft.push_back(
-        {folder / k_changes_file, gumcert::json::canonical_json({{"schema", "gumcert/archive-amendment-draft/1"},
-                                                                 {"number", one.draft_number},
-                                                                 {"amends", one.certificate.number},
-                                                                 {"reason", correction.reason},
-                                                                 {"job", places.of(job_name).generic_string()},
-                                                                 {"changes", std::move(changes)},
-                                                                 {"not_corrected", one.recalculated->not_corrected}})});
+    draft.push_back({folder / k_changes_file,
+                     gumcert::json::canonical_json({{"schema", "gumcert/archive-amendment-draft/1"},
+                                                    {"number", one.draft_number},
+                                                    {"amends", one.certificate.number},
+                                                    {"reason", correction.reason},
+                                                    {"job", places.of(job_name).generic_string()},
+                                                    {"changes", change_list(one.recalculated->stated)},
+                                                    {"changes_of_version", change_list(one.recalculated->of_version)},
+                                                    {"not_corrected", one.recalculated->not_corrected}})});
     return draft;
 }
 
@@ -530,6 +575,59 @@ struct Recalculated {
     reports::EvaluationRecord corrected;
 };
 
+/// What this version makes of a record with its own files; none where it makes nothing of them.
+std::optional<reports::EvaluationRecord> with_own_files(const std::string& number, const std::string& original,
+                                                        const Correction& correction) {
+    try {
+        return evaluation::evaluated_again(reports::record_from_json(original, number), number, 1, correction.templates,
+                                           correction.watch ? correction.watch() : gum::Progress());
+    } catch (const gum::InputError&) {
+        return std::nullopt;
+    }
+}
+
+/// What the corrected standard changes in a record. What this version of the program states otherwise than the one that made the
+/// record, also with the files that the record holds, is no effect of the correction.
+/// \param record  as it was issued
+/// \param issued, now  values of it, and of what comes of it
+void tell_effect(const reports::EvaluationRecord& record, const nlohmann::json& issued,
+                 const reports::EvaluationRecord& again, const nlohmann::json& now, const std::string& original,
+                 const Correction& correction, Recalculation& result) {
+    evaluation::RerunRecord rerun = result.rerun;  // which stays as it is where a limit ends the second evaluation
+    evaluation::tell_changes(issued, now, rerun);
+    std::vector<certificate::Change> stated = stated_changes(record, again);
+    result.shift = largest_shift(issued, now);
+    const bool is_of_other_version = std::tie(record.software.version, record.software.commit) !=
+                                     std::tie(again.software.version, again.software.commit);
+    if (is_of_other_version && (rerun.is_negative() || !stated.empty())) {
+        if (const std::optional<reports::EvaluationRecord> own = with_own_files(rerun.name, original, correction)) {
+            const nlohmann::json own_value = reports::to_json_value(*own);
+            evaluation::RerunRecord of_version;
+            evaluation::tell_changes(issued, own_value, of_version);
+            std::size_t shown = 0;
+            for (const evaluation::RecordChange& change : taken_out(rerun.changes, of_version.changes)) {
+                --rerun.counts.at(static_cast<std::size_t>(change.kind));
+                shown += is_shown(change) ? std::size_t{1} : 0;
+            }
+            result.of_version = taken_out(stated, stated_changes(record, *own));
+            result.shift = largest_shift(own_value, now);
+            if (shown > 0 || !result.of_version.empty()) {
+                result.version_in_words =
+                    "another version of gumcert made it, and this one states some of it otherwise whatever the "
+                    "standard: see gumcert rerun";
+            }
+            result.of_version.resize(std::min(result.of_version.size(), evaluation::k_most_changes));
+        } else {
+            result.version_in_words =
+                "another version of gumcert made it, and this one makes nothing of its own files: what the version "
+                "changes is among it";
+        }
+    }
+    std::erase_if(rerun.changes, [](const evaluation::RecordChange& change) { return !is_shown(change); });
+    result.rerun = std::move(rerun);
+    tell_what_is_stated(record, stated, result);
+}
+
 Recalculated recalculated(const std::string& number, const std::string& waits_for, const std::string& original,
                           const Correction& correction) {
     Recalculated done{.result = {.rerun = {.name = number}}, .corrected = {}};
@@ -550,11 +648,7 @@ Recalculated recalculated(const std::string& number, const std::string& waits_fo
         } else {
             const reports::EvaluationRecord again = evaluation::evaluated_again(
                 record, number, 1, correction.templates, correction.watch ? correction.watch() : gum::Progress());
-            const nlohmann::json now = reports::to_json_value(again);
-            evaluation::tell_changes(read.value, now, rerun);
-            tell_what_is_stated(record, again, done.result);
-            std::erase_if(rerun.changes, [](const evaluation::RecordChange& change) { return !is_shown(change); });
-            done.result.shift = largest_shift(read.value, now);
+            tell_effect(record, read.value, again, reports::to_json_value(again), original, correction, done.result);
             done.result.not_corrected = std::move(own);
             if (const std::string what = why_it_is_not_the_same(done.result, waits_for); !what.empty()) {
                 rerun.not_evaluated = cannot_say(number, what);
@@ -564,10 +658,6 @@ Recalculated recalculated(const std::string& number, const std::string& waits_fo
         rerun.not_evaluated = cannot_say(number, error.diagnostics().front().what);
     }
     return done;
-}
-
-bool is_before_issue(const std::string& state) {
-    return state == "drafted" || state == "reviewed" || state == "authorised";
 }
 
 /// Of what changes in a record and not in what an amendment would state; "" where nothing does.
@@ -585,9 +675,46 @@ bool needs_amendment(const AffectedCertificate& one) {
            (one.certificate.state == "issued" || !one.withdrawn_amendment.empty());
 }
 
+std::string in_words(const std::vector<certificate::Change>& changes) {
+    std::vector<std::string> words;
+    for (const certificate::Change& change : changes) {
+        words.push_back(change.where + " " + text::in_quotes(change.before) + " -> " + text::in_quotes(change.after));
+    }
+    return in_words(words);
+}
+
+/// Records of a certificate; "" where nothing is to be done with them.
+struct RecordsToRead {
+    std::string original, withdrawn;  ///< and of its amendment that was withdrawn
+};
+
+/// Why a draft of the original would state less than is known: it takes back what a withdrawn amendment had corrected, and whether that
+/// still holds only the laboratory knows. "" where nothing is lost.
+std::string why_it_would_take_back(const AffectedCertificate& one, const RecordsToRead& records) {
+    std::vector<certificate::Change> lost;
+    try {
+        const reports::EvaluationRecord withdrawn =
+            reports::record_from_json(records.withdrawn, one.withdrawn_amendment);
+        const reports::EvaluationRecord original = reports::record_from_json(records.original, one.certificate.number);
+        if ((withdrawn.certificate && original.certificate) || (withdrawn.comparison && original.comparison)) {
+            lost = stated_changes(original, withdrawn);
+            (void)taken_out(lost, one.recalculated->stated);
+            (void)taken_out(lost, one.recalculated->of_version);
+            return lost.empty() ? ""
+                                : "it would take back what " + one.withdrawn_amendment +
+                                      ", which was withdrawn, had stated otherwise: " + in_words(lost) +
+                                      "; decide what holds, and amend it by hand";
+        }
+    } catch (const gum::DiagnosedError&) {  // told below
+    }
+    return "what " + one.withdrawn_amendment +
+           ", which was withdrawn, had stated otherwise cannot be read from its record: amend it by hand";
+}
+
 /// Calculates a certificate again where that is not done, and drafts its amendment where one is needed.
-void work_out(AffectedCertificate& one, const std::string& original, const Correction& correction,
+void work_out(AffectedCertificate& one, const RecordsToRead& records, const Correction& correction,
               const DraftSink& drafts) {
+    const std::string& original = records.original;
     std::optional<reports::EvaluationRecord> corrected;
     if (!one.recalculated) {
         Recalculated done = recalculated(one.certificate.number, waits_for(one), original, correction);
@@ -607,6 +734,16 @@ void work_out(AffectedCertificate& one, const std::string& original, const Corre
                 : "it is " + one.certificate.state + ": where what took its place changes, too, that is amended";
         return;
     }
+    if (!one.amendment_under_way.empty()) {
+        one.no_draft = one.amendment_under_way + ", which amends it, is not issued yet: state there what changes";
+        return;
+    }
+    if (!one.withdrawn_amendment.empty()) {
+        one.no_draft = why_it_would_take_back(one, records);
+        if (!one.no_draft.empty()) {
+            return;
+        }
+    }
     if (!corrected) {  // another machine has calculated it
         corrected = reports::record_from_json(original, one.certificate.number);
         (void)correct_files(*corrected, correction);
@@ -620,16 +757,19 @@ void work_out(AffectedCertificate& one, const std::string& original, const Corre
     }
 }
 
-/// Records of some certificates, "" where nothing is to be done with one.
-std::vector<std::string> originals_of(const std::vector<AffectedCertificate>& affected, std::size_t from,
+/// Records of some certificates.
+std::vector<RecordsToRead> records_of(const std::vector<AffectedCertificate>& affected, std::size_t from,
                                       std::size_t to, Archive& archive) {
-    std::vector<std::string> originals;
+    std::vector<RecordsToRead> records(to - from);
     for (std::size_t i = from; i < to; ++i) {
         const AffectedCertificate& one = affected[i];
-        originals.push_back(
-            !one.recalculated || needs_amendment(one) ? archive.content(one.certificate.record).value_or("") : "");
+        if (!one.recalculated || needs_amendment(one)) {
+            records[i - from].original = archive.content(one.certificate.record).value_or("");
+            records[i - from].withdrawn =
+                one.withdrawn_record.empty() ? "" : archive.content(one.withdrawn_record).value_or("");
+        }
     }
-    return originals;
+    return records;
 }
 
 constexpr std::array<const char*, 6> k_outcomes = {"verdict", "printed", k_text, "cannot_say", "budget", "same"};
@@ -712,13 +852,16 @@ std::vector<AffectedCertificate> find_affected(Archive& archive, const WrongStan
         const bool is_read = records[i].references.has_value();
         if (certificate.state != k_withdrawn) {
             places[i] = affected.size();
+            const RecordSearch::Amendment withdrawn = search.withdrawn_amendment(certificate.number);
             affected.push_back({.certificate = certificate,
                                 .used_from = is_read ? records[i].references->used_from : "",
                                 .used_to = is_read ? records[i].references->used_to : "",
                                 .because = std::move(because),
                                 .through = by.through,
                                 .through_state = by.through_state,
-                                .withdrawn_amendment = search.withdrawn_amendment(certificate.number),
+                                .withdrawn_amendment = withdrawn.number,
+                                .withdrawn_record = withdrawn.record,
+                                .amendment_under_way = search.amendment_under_way(certificate.number),
                                 .draft_number = search.free_number(certificate.number)});
         }
         wanted.push_back({certificate.number, certificate.number, certificate.state});
@@ -772,19 +915,19 @@ void recalculate(std::vector<AffectedCertificate>& affected, Archive& archive, c
     gum::WorkerThreads workers(threads);
     const auto finish = drafts.finish ? drafts.finish : [] {};
     const auto end_of = [&](std::size_t first) { return std::min(first + k_records_at_once, affected.size()); };
-    std::vector<std::string> originals = originals_of(affected, 0, end_of(0), archive);
+    std::vector<RecordsToRead> records = records_of(affected, 0, end_of(0), archive);
     for (std::size_t first = 0; first < affected.size(); first = end_of(first)) {
         // Beside the calculation: the drafts before come to the disk, and the records after are read.
-        std::vector<std::string> next;
+        std::vector<RecordsToRead> next;
         std::future<void> disk = std::async(beside(workers), [&, after = end_of(first)] {
             finish();
-            next = originals_of(affected, after, end_of(after), archive);
+            next = records_of(affected, after, end_of(after), archive);
         });
-        workers.run(originals.size(), [&](unsigned /*worker*/, std::size_t task) {
-            work_out(affected[first + task], originals[task], correction, drafts);
+        workers.run(records.size(), [&](unsigned /*worker*/, std::size_t task) {
+            work_out(affected[first + task], records[task], correction, drafts);
         });
         disk.get();
-        originals = std::move(next);
+        records = std::move(next);
         if (progress) {
             progress(std::to_string(end_of(first)) + " of " + std::to_string(affected.size()) + " calculated");
         }
@@ -810,8 +953,11 @@ std::string affected_text(const std::vector<AffectedCertificate>& affected) {
         text += "\n    " + through_text(one) + word_of(one.because.front().kind) + " \"" +
                 text::visible(one.because.front().text, 120) + "\"\n";
         if (!one.withdrawn_amendment.empty()) {
-            text += "    " + text::visible(one.withdrawn_amendment, 80) +
-                    ", which took its place, was withdrawn: amend it once more, or withdraw it\n";
+            text += "    " + text::visible(one.withdrawn_amendment, 80) + ", which took its place, was withdrawn" +
+                    (one.amendment_under_way.empty() ? ": amend it once more, or withdraw it\n" : "\n");
+        }
+        if (!one.amendment_under_way.empty() && one.no_draft.empty()) {
+            text += "    " + text::visible(one.amendment_under_way, 80) + ", which amends it, is not issued yet\n";
         }
         if (one.recalculated && one.recalculated->rerun.not_evaluated) {
             text += "    " + text::visible(one.recalculated->rerun.not_evaluated->what, 200) + "\n";
@@ -828,6 +974,8 @@ std::string affected_text(const std::vector<AffectedCertificate>& affected) {
                                                             : "    not corrected, because its job states it itself: " +
                                                                   in_words(one.recalculated->not_corrected) + "\n";
             text += waits.empty() ? "" : "    it rests on " + text::visible(waits, 120) + "\n";
+            const std::string& of_version = one.recalculated->version_in_words;
+            text += of_version.empty() ? "" : "    " + of_version + "\n";
         }
         constexpr std::size_t k_most_texts = 3;
         for (std::size_t i = 0; one.recalculated && i < std::min(one.recalculated->texts.size(), k_most_texts); ++i) {
@@ -861,6 +1009,8 @@ std::string affected_json(const std::vector<AffectedCertificate>& affected, cons
                              {"through_state", one.through_state},
                              {"also_through", one.also_through},
                              {"withdrawn_amendment", one.withdrawn_amendment},
+                             {"amendment_under_way", one.amendment_under_way},
+                             {"version_in_words", ""},
                              {"not_corrected", nlohmann::json::array()},
                              {"outcome", outcome_of(one)},
                              {"shift", nullptr},
@@ -872,6 +1022,7 @@ std::string affected_json(const std::vector<AffectedCertificate>& affected, cons
             const evaluation::RerunRecord& rerun = one.recalculated->rerun;
             shown["changes"] = shown_change_list(*one.recalculated);
             shown["not_corrected"] = one.recalculated->not_corrected;
+            shown["version_in_words"] = one.recalculated->version_in_words;
             if (rerun.not_evaluated) {
                 shown["cannot_say"] = rerun.not_evaluated->what;
             } else {

@@ -35,6 +35,10 @@ struct Recalculation {
     std::vector<evaluation::RecordChange> texts = {};
     /// All that an amendment would tell, as its list has it; the first ones.
     std::vector<certificate::Change> stated = {};
+    /// Of a record of another version of the program: what an amendment would tell as well, and what this version states otherwise
+    /// with the files of the record, too; the first ones. None of it is an effect of the correction, nor among `rerun`.
+    std::vector<certificate::Change> of_version = {};
+    std::string version_in_words = {};  ///< what a person should know of the other version; "" where there is nothing
     /// A value, uncertainty or verdict that the certificate or report states changes; digits of the budget of a certificate are
     /// none.
     bool results_change = false;
@@ -57,6 +61,8 @@ struct AffectedCertificate {
     std::string also_through = {};
     std::string also_through_state = {};
     std::string withdrawn_amendment;  ///< number of what took its place and was withdrawn; "" else
+    std::string withdrawn_record;     ///< SHA-256 of the record of that; "" else
+    std::string amendment_under_way;  ///< number of a draft that amends or replaces it and is not issued yet; "" else
     std::string draft_number;         ///< the next free number of an amendment of it
     std::string draft_name = {};      ///< of a folder for its draft, another one for each certificate that was found
 
@@ -105,7 +111,9 @@ struct DraftSink {
 };
 
 /// Calculates all certificates again that are not yet, drafts an amendment of each one that is issued, or whose amendment was
-/// withdrawn, and of which a printed digit, a verdict or a text changes, and ranks them; on several cores, with the same result for any number of threads.
+/// withdrawn, and of which a printed digit, a verdict or a text changes, and ranks them; on several cores, with the same result for
+/// any number of threads. None is drafted beside an amendment that is under way, nor one that would take back what a withdrawn
+/// amendment had stated otherwise.
 /// \param archive  in which they were found
 void recalculate(std::vector<AffectedCertificate>& affected, Archive& archive, const Correction& correction,
                  unsigned threads, const DraftSink& drafts = {}, const gum::Progress& progress = {});

@@ -32,6 +32,25 @@ gum::Diagnostic diagnostic_in(const json& value) {
             .action = gumcert::json::text_of(value, "action")};
 }
 
+json as_list(const std::vector<certificate::Change>& changes) {
+    json list = json::array();
+    for (const certificate::Change& change : changes) {
+        list.push_back({change.kind, change.where, change.before, change.after});
+    }
+    return list;
+}
+
+std::vector<certificate::Change> changes_in(const json& list) {
+    std::vector<certificate::Change> changes;
+    for (const json& change : list) {
+        changes.push_back({.kind = change.at(0).get<std::string>(),
+                           .where = change.at(1).get<std::string>(),
+                           .before = change.at(2).get<std::string>(),
+                           .after = change.at(3).get<std::string>()});
+    }
+    return changes;
+}
+
 std::string as_text(const Recalculation& one) {
     json changes = json::array();
     for (const evaluation::RecordChange& change : one.rerun.changes) {
@@ -41,12 +60,10 @@ std::string as_text(const Recalculation& one) {
     for (const evaluation::RecordChange& change : one.texts) {
         texts.push_back({change.place, change.before, change.now});
     }
-    json stated = json::array();
-    for (const certificate::Change& change : one.stated) {
-        stated.push_back({change.kind, change.where, change.before, change.after});
-    }
     return dumped({{"changes", std::move(changes)},
-                   {"stated", std::move(stated)},
+                   {"stated", as_list(one.stated)},
+                   {"of_version", as_list(one.of_version)},
+                   {"version_in_words", one.version_in_words},
                    {"texts", std::move(texts)},
                    {"results_change", one.results_change},
                    {"not_corrected", one.not_corrected},
@@ -71,12 +88,9 @@ Recalculation recalculation_in(const std::string& number, const std::string& tex
                                      change.at(1).get<std::string>(), change.at(2).get<std::string>(),
                                      change.at(3).get<std::string>()});
     }
-    for (const json& change : value.at("stated")) {
-        one.stated.push_back({.kind = change.at(0).get<std::string>(),
-                              .where = change.at(1).get<std::string>(),
-                              .before = change.at(2).get<std::string>(),
-                              .after = change.at(3).get<std::string>()});
-    }
+    one.stated = changes_in(value.at("stated"));
+    one.of_version = changes_in(value.at("of_version"));
+    one.version_in_words = value.at("version_in_words").get<std::string>();
     for (const json& change : value.at("texts")) {
         one.texts.push_back({evaluation::ChangeKind::other, change.at(0).get<std::string>(),
                              change.at(1).get<std::string>(), change.at(2).get<std::string>()});

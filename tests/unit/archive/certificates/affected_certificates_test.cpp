@@ -531,26 +531,41 @@ TEST_F(ArchiveOfStandards, HaveDraftsOfEachFileOnce) {
     EXPECT_EQ(drafts, 3U);
 }
 
-/// Where an amendment was withdrawn nothing holds, and the original is amended once more: it has a draft as one that is issued.
+/// Where an amendment was withdrawn nothing holds, and the original is amended once more: it has a draft as one that is issued, but
+/// none that takes back what the withdrawn one had corrected, and none beside another one that is under way.
 TEST_F(ArchiveOfStandards, HaveADraftWhereTheirAmendmentWasWithdrawn) {
     const std::string record = reports::to_canonical_json(
         evaluation::evaluate_job(k_affected_tree / "examples" / "laboratory" / "end_gauge.json",
                                  evaluation::CovarianceFile::none, 1, k_affected_tree / "templates")
             .record);
-    add("EX-1", record);
-    add("EX-2", record);
-    const auto amend = [&](const std::string& original) {
-        Draft amendment = test::sample_draft(original + "/A1");
-        amendment.record = R"({"title": "another standard"})";
+    json other = json::parse(record);
+    other.erase("digest");
+    other["certificate"]["data"]["item"]["serial_number"] = "SN-1002";
+    const auto amend = [&](const std::string& original, const std::string& number, const std::string& with,
+                           bool is_issued = true) {
+        Draft amendment = test::sample_draft(number);
+        amendment.record = with;
         amendment.amends = Draft::Amends{original, "amended", {{"text", "/title", "a", "b"}}};
         (void)archive_.draft(amendment, by("A. Author"));
         for (const char* const kind : {"reviewed", "authorised", "issued"}) {
-            (void)archive_.advance(original + "/A1", kind, by("R. Reviewer"));
+            if (is_issued) {
+                (void)archive_.advance(number, kind, by("R. Reviewer"));
+            }
         }
     };
-    amend("EX-1");
-    amend("EX-2");
-    (void)archive_.advance("EX-1/A1", "withdrawn", by("R. Reviewer"));
+    const std::string unreadable = R"({"title": "another standard"})";
+    for (const auto& [number, with] :
+         {std::pair("EX-1", record), std::pair("EX-2", unreadable), std::pair("EX-3", other.dump()),
+          std::pair("EX-4", unreadable), std::pair("EX-5", record)}) {
+        add(number, record);
+        amend(number, number + std::string("/A1"), with);
+        if (std::string_view(number) != "EX-2") {
+            (void)archive_.advance(number + std::string("/A1"), "withdrawn", by("R. Reviewer"));
+        }
+    }
+    add("EX-6", record);
+    amend("EX-5", "EX-5/A2", unreadable, false);
+    amend("EX-6", "EX-6/A1", unreadable, false);
     json corrected = json::parse(evaluation::read_file(k_affected_tree / "examples" / "laboratory" / "laboratory" /
                                                        "standards" / "STD-017.json"),
                                  nullptr, true, true);
@@ -564,14 +579,106 @@ TEST_F(ArchiveOfStandards, HaveADraftWhereTheirAmendmentWasWithdrawn) {
                  .reason = "r",
                  .templates = k_affected_tree / "templates"},
                 1, {.write = [](const std::vector<outputs::OutputFile>&) {}});
-    ASSERT_EQ(affected.size(), 2U);
+    ASSERT_EQ(affected.size(), 6U);
     EXPECT_EQ(affected[0].certificate.state, "amended-by");
     EXPECT_EQ(affected[0].draft_folder, "EX-1_A2");
     EXPECT_EQ(affected[0].no_draft, "");
-    EXPECT_EQ(affected[1].draft_folder, "");
-    EXPECT_NE(affected[1].no_draft.find("where what took its place changes, too"), std::string::npos);
-    EXPECT_NE(affected_text(affected).find("EX-1/A1, which took its place, was withdrawn"), std::string::npos);
-    EXPECT_EQ(json::parse(affected_json(affected, {}))["certificates"][0]["withdrawn_amendment"], "EX-1/A1");
+    const std::string told = affected_text(affected);
+    for (const auto& [i, reason] :
+         {std::pair(1U, "where what took its place changes, too"), std::pair(2U, "-> \"SN-1002\"; decide what holds"),
+          std::pair(3U, "cannot be read from its record"), std::pair(4U, "EX-5/A2, which amends it, is not issued yet"),
+          std::pair(5U, "EX-6/A1, which amends it, is not issued yet")}) {
+        EXPECT_EQ(affected[i].draft_folder, "");
+        EXPECT_NE(affected[i].no_draft.find(reason), std::string::npos) << affected[i].no_draft;
+        EXPECT_NE(told.find(reason), std::string::npos) << told;
+    }
+    EXPECT_NE(told.find("EX-1/A1, which took its place, was withdrawn: amend it once more"), std::string::npos);
+    EXPECT_NE(told.find("EX-5/A1, which took its place, was withdrawn\n"), std::string::npos);
+    const json all = json::parse(affected_json(affected, {}))["certificates"];
+    EXPECT_EQ(all[0]["withdrawn_amendment"], "EX-1/A1");
+    EXPECT_EQ(all[4]["amendment_under_way"], "EX-5/A2");
+}
+
+/// What a newer version says otherwise whatever the standard is no effect of the correction, and no reason for a draft.
+TEST_F(ArchiveOfStandards, TellNothingThatTheVersionAloneSaysOtherwise) {
+    const std::filesystem::path folder = folder_.file("laboratory");
+    std::filesystem::copy(k_affected_tree / "examples" / "laboratory", folder,
+                          std::filesystem::copy_options::recursive);
+    std::ofstream(folder / "b.json") << R"({"schema": "gumcert/job/1", "kind": "budget", "title": "b",
+        "coverage_probability": 0.9545, "laboratory": "laboratory", "model": ["l = l_s*0.000244 + d"],
+        "inputs": {"l_s": {"standard": "STD-017", "unit": "um", "date": "2026-11-18"},
+                   "d": {"value": 0.11, "u": 0.1, "unit": "um"}}, "outputs": {"l": {"unit": "um"}}})";
+    std::ofstream(folder / "comparison.json") << R"({"schema": "gumcert/job/1", "kind": "comparison", "title": "C",
+        "unit": "um", "assigned_value": {"value": 12.2, "U": 0.1, "k": 2}, "artefact_stability": "no change",
+        "certificate": {"number": "R-1", "laboratory": {"name": "Example Institute"}, "languages": ["en"],
+                        "dates": {"issued": "2026-11-20"}},
+        "participants": [{"id": "A", "budget": "b.json"}, {"id": "B", "value": 12.18, "u": 0.12},
+                         {"id": "C", "value": 12.6, "U": 0.24, "k": 2.5}]})";
+    const auto add_record = [&](const std::string& number, const char* job, const std::vector<const char*>& places) {
+        json record = json::parse(reports::to_canonical_json(
+            evaluation::evaluate_job(folder / job, evaluation::CovarianceFile::none, 1, k_affected_tree / "templates")
+                .record));
+        record.erase("digest");
+        record["software"]["version"] = "0.0.1";
+        for (const char* const place : places) {
+            ASSERT_TRUE(record.contains(json::json_pointer(place))) << place;
+            record[json::json_pointer(place)] = place == places.front() ? "of old" : "7";
+        }
+        add(number, record.dump());
+    };
+    add_record("EX-1", "end_gauge.json",
+               {"/certificate/data/item/serial_number", "/certificate/tables/0/columns/0/values/0/printed_value"});
+    add_record("R-1", "comparison.json", {"/comparison/remarks/0", "/comparison/participants/0/printed/max_abs_En"});
+    const std::string registered = evaluation::read_file(folder / "laboratory" / "standards" / "STD-017.json");
+    struct Told {
+        json certificates;
+        std::map<std::string, json> drafts;  // their lists of changes
+    };
+    const auto told = [&](const std::string& from, const std::string& to) {
+        std::string corrected = registered;
+        for (std::size_t at = corrected.find(from); at != std::string::npos;
+             at = corrected.find(from, at + to.size())) {
+            corrected.replace(at, from.size(), to);
+        }
+        std::vector<AffectedCertificate> affected = find_affected(archive_, {"STD-017", "2026-03-02", ""}, 1);
+        Told all;
+        recalculate(
+            affected, archive_,
+            {.standard = "STD-017", .corrected = corrected, .reason = "r", .templates = k_affected_tree / "templates"},
+            1, {.write = [&](const std::vector<outputs::OutputFile>& files) {
+                for (const outputs::OutputFile& file : files) {
+                    if (file.path.filename() == "changes.json") {
+                        const json read = json::parse(file.bytes);
+                        all.drafts[read["amends"]] = read;
+                    }
+                }
+            }});
+        std::sort(affected.begin(), affected.end(),
+                  [](const auto& a, const auto& b) { return a.certificate.number < b.certificate.number; });
+        all.certificates = json::parse(affected_json(affected, {}))["certificates"];
+        EXPECT_NE(affected_text(affected).find("another version of gumcert made it"), std::string::npos);
+        return all;
+    };
+    const Told same = told("50.000623", "50.000623");
+    ASSERT_EQ(same.certificates.size(), 2U);
+    for (const json& one : same.certificates) {
+        EXPECT_EQ(one["outcome"], "same") << one;
+        EXPECT_EQ(one["shift"], 0.0);
+        EXPECT_EQ(one["changes"], json::array());
+        EXPECT_NE(one["version_in_words"], "");
+    }
+    EXPECT_TRUE(same.drafts.empty());
+    Told changed = told("50.000623", "50.900623");
+    EXPECT_EQ(changed.certificates[0]["outcome"], "verdict");
+    EXPECT_EQ(changed.certificates[1]["outcome"], "printed");
+    for (const char* const number : {"EX-1", "R-1"}) {
+        EXPECT_FALSE(changed.drafts[number]["changes"].empty()) << number;
+        EXPECT_EQ(changed.drafts[number]["changes"].dump().find("of old"), std::string::npos) << number;
+        EXPECT_NE(changed.drafts[number]["changes_of_version"].dump().find("of old"), std::string::npos) << number;
+    }
+    const Told text = told("NMI-2026-0117", "NMI-2026-0118");
+    EXPECT_EQ(text.certificates[0]["outcome"], "text") << "and no digit, which the version alone changes";
+    EXPECT_EQ(text.certificates[0]["changes"].size(), 1U);
 }
 
 /// A result that rests on more than the standard is moved by less of its own U than the standard by its.
