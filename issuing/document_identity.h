@@ -12,7 +12,7 @@ namespace gumcert::issuing {
 /// does not say.
 struct DocumentIdentity {
     std::string number, laboratory, item, performed_from, performed_to, issued;
-    std::string state;      ///< "draft", "specimen", ""
+    std::string state;      ///< "draft", "specimen", "superseded document", ""
     bool attached = false;  ///< it is the one inside of a PDF
 };
 

@@ -1,5 +1,6 @@
 #include "issuing/issue_documents.h"
 
+#include <optional>
 #include <utility>
 
 #include "gum/quantity/diagnostic.h"
@@ -33,7 +34,34 @@ void require_signable(const reports::EvaluationRecord& record, std::span<const e
     }
 }
 
-void supersede(reports::EvaluationRecord& record, const reports::EvaluationRecord& later, const std::string& where,
+namespace {
+
+/// Under which number a record was issued, as a certificate or as the report of a comparison, and what it amends.
+struct Issued {
+    std::string number;
+    std::optional<certificate::Amendment> amendment;
+    std::string* superseded_by = nullptr;  ///< of the record
+};
+
+std::optional<Issued> issued_as(reports::EvaluationRecord& record) {
+    if (record.certificate) {
+        const certificate::CertificateData& data = record.certificate->data;
+        return Issued{data.number, data.amendment, &record.certificate->superseded_by};
+    }
+    if (record.comparison && record.comparison->issuer && !record.comparison->issuer->number.empty()) {
+        reports::ComparisonIssuer& issuer = *record.comparison->issuer;
+        return Issued{issuer.number, issuer.amendment, &issuer.superseded_by};
+    }
+    return std::nullopt;
+}
+
+const char* sort_of(const reports::EvaluationRecord& record) {
+    return record.certificate ? "a certificate" : "the report of a comparison";
+}
+
+}  // namespace
+
+void supersede(reports::EvaluationRecord& record, reports::EvaluationRecord later, const std::string& where,
                const std::string& where_later) {
     const auto refuse = [](const std::string& at, std::string what, std::string rule, std::string action) {
         throw gum::InputError(gum::Diagnostic{.code = "GC-CERT-0309",
@@ -42,24 +70,29 @@ void supersede(reports::EvaluationRecord& record, const reports::EvaluationRecor
                                               .rule = std::move(rule),
                                               .action = std::move(action)});
     };
-    if (!record.certificate) {
-        // An amended report has certificate data in its job, and still no page that says what became of it.
+    const std::optional<Issued> earlier = issued_as(record);
+    if (!earlier) {
         refuse(where,
-               record.kind == reports::k_comparison_kind ? "the report of a comparison"
+               record.kind == reports::k_comparison_kind ? "the report of a comparison, without a number"
                                                          : "a record without certificate data",
-               "a certificate is superseded by another one", "leave --superseded-by out");
+               "a certificate or report is superseded by another one of its sort", "leave --superseded-by out");
     }
-    const std::string& number = record.certificate->data.number;
-    if (!later.certificate || !later.certificate->data.amendment) {
-        refuse(where_later, "not the record of an amendment", "the later certificate names the one that it supersedes",
-               "name the record of the certificate that amends or replaces \"" + number + "\"");
+    const std::string& number = earlier->number;
+    const std::optional<Issued> amending = issued_as(later);
+    if (!amending || !amending->amendment) {
+        refuse(where_later, "not the record of an amendment", "the later one names the one that it supersedes",
+               "name the record of the certificate or report that amends or replaces \"" + number + "\"");
     }
-    if (const std::string& named = later.certificate->data.amendment->number; named != number) {
-        refuse(where_later, "amends or replaces certificate \"" + named + "\"",
-               "the certificate that is printed has the number \"" + number + "\"",
-               "name the record of the certificate that amends or replaces it");
+    if (!record.certificate != !later.certificate) {
+        refuse(where_later, sort_of(later) + std::string(", and what is printed is ") + sort_of(record),
+               "a certificate or report is superseded by another one of its sort",
+               "name the record of the one that amends or replaces \"" + number + "\"");
     }
-    record.certificate->superseded_by = later.certificate->data.number;
+    if (const std::string& named = amending->amendment->number; named != number) {
+        refuse(where_later, "amends or replaces \"" + named + "\"", "what is printed has the number \"" + number + "\"",
+               "name the record of the one that amends or replaces it");
+    }
+    *earlier->superseded_by = amending->number;
 }
 
 std::string issue_document(const reports::EvaluationRecord& record, std::string_view form,

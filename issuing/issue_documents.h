@@ -15,10 +15,12 @@ namespace gumcert::issuing {
 void require_signable(const reports::EvaluationRecord& record,
                       std::span<const evaluation::Kind> kinds = evaluation::program_kinds());
 
-/// Says of a certificate that a later one amends or replaces it: its documents are marked, and not signed.
+/// Says of a certificate, or of the report of a comparison, that a later one amends or replaces it: its documents are marked,
+/// and not signed.
 /// \param where, where_later  names of the records for messages
-/// \throws gum::InputError  GC-CERT-0309 where one of them is no certificate, or the later one names another number
-void supersede(reports::EvaluationRecord& record, const reports::EvaluationRecord& later, const std::string& where,
+/// \throws gum::InputError  GC-CERT-0309 where one of them has no number, they are not of one sort, or the later one
+///         names another number
+void supersede(reports::EvaluationRecord& record, reports::EvaluationRecord later, const std::string& where,
                const std::string& where_later);
 
 /// One form of the document. The digital certificate is signed first and stands in the PDF as it was signed; then the

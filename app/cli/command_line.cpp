@@ -237,8 +237,9 @@ void add_render(CLI::App& program, Arguments& a) {
     add_file(command, "-o,--output", a.documents.output,
              "File, or - for standard output; with several records a folder. Default: beside the record");
     add_document_options(command, a.documents);
-    add_file(command, "--superseded-by", a.documents.superseded_by,
-             "Record of the certificate that amends or replaces this one: every page is marked as superseded");
+    add_file(
+        command, "--superseded-by", a.documents.superseded_by,
+        "Record of the certificate or report that amends or replaces this one: every page is marked as superseded");
     add_file(command, "--head", a.documents.head,
              "Head of the archive that holds the record, as gumcert archive head writes it: certificates as HTML, PDF\n"
              "and text print it at their end, with a QR code");

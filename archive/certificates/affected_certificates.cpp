@@ -8,10 +8,12 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <string_view>
 #include <tuple>
 #include <utility>
 
 #include "archive/certificates/archive_files.h"
+#include "archive/certificates/report_changes.h"
 #include "archive/certificates/texts_of_records.h"
 #include "evaluation/recompute_record.h"
 #include "gum/monte_carlo/worker_threads.h"
@@ -43,6 +45,10 @@ std::launch beside(const gum::WorkerThreads& threads) {
     return threads.size() > 1 ? std::launch::async : std::launch::deferred;
 }
 
+bool is_before_issue(const std::string& state) {
+    return state == "drafted" || state == "reviewed" || state == "authorised";
+}
+
 /// A record that was read, without its bytes.
 struct SearchedRecord {
     ListedCertificate certificate;
@@ -59,6 +65,13 @@ public:
             [&](const std::map<std::string, CertificateLife>& lives) {
                 for (const auto& [number, life] : lives) {
                     numbers_.insert(number);
+                    const auto later = lives.find(life.later);
+                    if (later != lives.end() && later->second.state == k_withdrawn) {
+                        withdrawn_amendments_[number] = {life.later, later->second.record};
+                    }
+                    if (!life.amends.empty() && is_before_issue(life.state)) {
+                        under_way_[life.amends] = number;
+                    }
                 }
             },
             [&](const ListedCertificate& certificate, std::string bytes) {
@@ -85,8 +98,25 @@ public:
         return original + "/A" + std::to_string(ordinal);
     }
 
+    struct Amendment {
+        std::string number, record;
+    };
+    /// What took the place of a certificate and was withdrawn; without a number where nothing did.
+    [[nodiscard]] Amendment withdrawn_amendment(const std::string& number) const {
+        const auto found = withdrawn_amendments_.find(number);
+        return found == withdrawn_amendments_.end() ? Amendment() : found->second;
+    }
+
+    /// The last one that amends or replaces a certificate and is not issued yet; "" where there is none.
+    [[nodiscard]] std::string amendment_under_way(const std::string& number) const {
+        const auto found = under_way_.find(number);
+        return found == under_way_.end() ? "" : found->second;
+    }
+
 private:
-    std::set<std::string> numbers_;  // of all certificates, with a record or without
+    std::set<std::string> numbers_;                          // of all certificates, with a record or without
+    std::map<std::string, Amendment> withdrawn_amendments_;  // by the number of what they took the place of
+    std::map<std::string, std::string> under_way_;           // by the number of what they amend
     gum::WorkerThreads threads_;
     const gum::Progress& progress_;
     std::vector<SearchedRecord> found_;
@@ -251,6 +281,8 @@ double largest_shift(const nlohmann::json& before, const nlohmann::json& now) {
     return largest;
 }
 
+constexpr const char* k_changes_file = "changes.json";  // of a draft, beside its job
+
 /// Places for the files of a job in a folder of its own. Names that lead out of the folder of the job ("../laboratory")
 /// stay as they are: the job lies so much deeper.
 class DraftPlaces {
@@ -261,7 +293,8 @@ public:
             for (const auto& part : std::filesystem::path(file.name)) {
                 depth += part == ".." ? std::size_t{1} : 0;
             }
-            depth_ = std::max(depth_, depth);
+            const bool is_of_draft = std::filesystem::path(file.name).lexically_normal() == k_changes_file;
+            depth_ = std::max(depth_, is_of_draft ? std::size_t{1} : depth);
         }
     }
     [[nodiscard]] std::filesystem::path of(const std::string& name) const {
@@ -303,17 +336,59 @@ nlohmann::json shown_change_list(const Recalculation& recalculation) {
     return list;
 }
 
-/// What the certificates of two records state otherwise in words.
-std::vector<evaluation::RecordChange> texts_that_change(const reports::EvaluationRecord& before,
-                                                        const reports::EvaluationRecord& now) {
-    std::vector<evaluation::RecordChange> texts;
-    for (const certificate::Change& change : reports::changes_between(before, now)) {
-        if (change.kind == k_text &&
-            texts.size() < evaluation::k_most_changes) {  // numbers and verdicts are told by tell_changes()
-            texts.push_back({evaluation::ChangeKind::other, change.where, change.before, change.after});
+/// Whether a change is one of results, which tell_changes() tells; else it is one of the certificate data, its numbers (U of a
+/// standard) and codes among them, or of what stands around results.
+bool is_of_results(const certificate::Change& change, bool is_of_report) {
+    static constexpr std::array<std::string_view, 12> k_others{"text",    "flag",          "code",  "words",
+                                                               "heading", "role",          "stage", "title",
+                                                               "columns", "specification", "rule",  "group"};
+    const bool is_of_data = !is_of_report && change.where.starts_with('/');
+    return !is_of_data && std::ranges::find(k_others, change.kind) == k_others.end();
+}
+
+/// What a certificate or report states otherwise, as the list of an amendment has it.
+std::vector<certificate::Change> stated_changes(const reports::EvaluationRecord& before,
+                                                const reports::EvaluationRecord& now) {
+    return before.certificate && now.certificate ? reports::changes_between(before, now)
+           : before.comparison && now.comparison ? changes_of_report(before, now)
+                                                 : std::vector<certificate::Change>();
+}
+
+auto content_of(const certificate::Change& change) {
+    return std::tie(change.kind, change.where, change.before, change.after);
+}
+
+auto content_of(const evaluation::RecordChange& change) {
+    return std::tie(change.kind, change.place, change.before, change.now);
+}
+
+/// Takes those changes out that stand among others, too, and gives them.
+template <typename Change>
+std::vector<Change> taken_out(std::vector<Change>& changes, const std::vector<Change>& others) {
+    std::set<decltype(content_of(others.front()))> known;
+    for (const Change& other : others) {
+        known.insert(content_of(other));
+    }
+    const auto first = std::stable_partition(changes.begin(), changes.end(),
+                                             [&](const Change& one) { return !known.contains(content_of(one)); });
+    std::vector<Change> taken(std::make_move_iterator(first), std::make_move_iterator(changes.end()));
+    changes.erase(first, changes.end());
+    return taken;
+}
+
+/// Tells what changes in the words around results, and whether results do.
+void tell_what_is_stated(const reports::EvaluationRecord& before, const std::vector<certificate::Change>& changes,
+                         Recalculation& result) {
+    for (const certificate::Change& change : changes) {
+        if (result.stated.size() < evaluation::k_most_changes) {
+            result.stated.push_back(change);
+        }
+        if (is_of_results(change, !before.certificate)) {
+            result.results_change = result.rerun.is_negative();  // beyond the last digits of unrounded numbers
+        } else if (result.texts.size() < evaluation::k_most_changes) {
+            result.texts.push_back({evaluation::ChangeKind::other, change.where, change.before, change.after});
         }
     }
-    return texts;
 }
 
 /// What the program says of the changes, in all languages of the document, which prints it.
@@ -343,12 +418,30 @@ nlohmann::ordered_json changes_in_words(const reports::EvaluationRecord& record,
     return all;
 }
 
+/// The file with the record of what a record amends itself, which is no part of its job; "" where there is none.
+std::string amended_record(const reports::EvaluationRecord& record) {
+    if (record.certificate && record.certificate->data.amendment) {
+        return record.certificate->data.amendment->record;
+    }
+    const bool is_report = record.comparison && record.comparison->issuer && record.comparison->issuer->amendment;
+    return is_report ? record.comparison->issuer->amendment->record : "";
+}
+
+/// As the log will have them.
+nlohmann::json change_list(const std::vector<certificate::Change>& changes) {
+    nlohmann::json list = nlohmann::json::array();
+    for (const certificate::Change& change : changes) {
+        list.push_back(
+            {{"kind", change.kind}, {"place", change.where}, {"before", change.before}, {"now", change.after}});
+    }
+    return list;
+}
+
 /// Job, certificate data and all files of an amendment.
 /// \return none where the job cannot be written beside each other again
 std::vector<outputs::OutputFile> drafted_amendment(const AffectedCertificate& one, const std::string& original,
                                                    const reports::EvaluationRecord& corrected,
                                                    const Correction& correction) {
-    constexpr const char* record_name = "original_record.json";
     const DraftPlaces places(corrected.job_files);
     const std::filesystem::path folder = one.draft_name;
     std::map<std::string, std::string> files;
@@ -374,13 +467,20 @@ std::vector<outputs::OutputFile> drafted_amendment(const AffectedCertificate& on
     if (!certificate.is_object()) {
         return {};
     }
+    // The record of what it amends itself is no part of its job, and may have the name that a draft gave it.
+    files.erase(amended_record(corrected));
+    std::string record_name = "original_record.json";
+    for (int ordinal = 2; files.contains(record_name); ++ordinal) {
+        record_name = "original_record-" + std::to_string(ordinal) + ".json";
+    }
     certificate["number"] = one.draft_number;
-    certificate["amendment"] = {{"kind", "amended"},
-                                {"number", one.certificate.number},
-                                {"reason", correction.reason},
-                                {"changes", nlohmann::ordered_json::array({changes_in_words(
-                                                corrected, correction, one.recalculated->rerun.is_negative())})},
-                                {"record", record_name}};
+    certificate["amendment"] = {
+        {"kind", "amended"},
+        {"number", one.certificate.number},
+        {"reason", correction.reason},
+        {"changes",
+         nlohmann::ordered_json::array({changes_in_words(corrected, correction, one.recalculated->results_change)})},
+        {"record", record_name}};
     if (inside) {
         job["certificate"] = certificate;
     } else {
@@ -391,19 +491,83 @@ std::vector<outputs::OutputFile> drafted_amendment(const AffectedCertificate& on
         job["laboratory"] = "laboratory";
     }
     files[job_name] = written(job);
-    std::vector<outputs::OutputFile> draft;
+    files[record_name] = original;
+    std::map<std::filesystem::path, std::string> placed;
     for (const auto& [name, bytes] : files) {
-        draft.push_back({folder / places.of(name), bytes});
+        const auto [at, is_new] = placed.emplace(folder / places.of(name), bytes);
+        if (!is_new && at->second != bytes) {  // a folder that is named as that of the laboratory
+            return {};
+        }
     }
-    draft.push_back({folder / places.of(record_name), original});
-    draft.push_back(
-        {folder / "changes.json", gumcert::json::canonical_json({{"schema", "gumcert/archive-amendment-draft/1"},
-                                                                 {"number", one.draft_number},
-                                                                 {"amends", one.certificate.number},
-                                                                 {"reason", correction.reason},
-                                                                 {"job", places.of(job_name).generic_string()},
-                                                                 {"changes", shown_change_list(*one.recalculated)}})});
+    std::vector<outputs::OutputFile> draft;
+    for (const auto& [place, bytes] : placed) {
+        draft.push_back({place, bytes});
+    }
+    draft.push_back({folder / k_changes_file,
+                     gumcert::json::canonical_json({{"schema", "gumcert/archive-amendment-draft/1"},
+                                                    {"number", one.draft_number},
+                                                    {"amends", one.certificate.number},
+                                                    {"reason", correction.reason},
+                                                    {"job", places.of(job_name).generic_string()},
+                                                    {"changes", change_list(one.recalculated->stated)},
+                                                    {"changes_of_version", change_list(one.recalculated->of_version)},
+                                                    {"not_corrected", one.recalculated->not_corrected}})});
     return draft;
+}
+
+/// Names of a standard: its identification, and its certificates in a file of the register.
+void add_names(const std::string& registered, std::vector<std::string>& names_of_standard) {
+    const nlohmann::json standard = nlohmann::json::parse(registered, nullptr, false, true);
+    for (const nlohmann::json& calibration : gumcert::json::part_of(standard, "calibrations")) {
+        if (std::string certificate = gumcert::json::text_of(calibration, "certificate"); !certificate.empty()) {
+            names_of_standard.push_back(std::move(certificate));
+        }
+    }
+}
+
+/// Where the job of a record states something of a standard itself.
+/// \param record  as it was issued
+std::vector<std::string> own_statements(const reports::EvaluationRecord& record, const std::string& standard) {
+    std::vector<std::string> names_of_standard{standard};
+    for (const reports::InputFile& file : record.job_files) {
+        if (standard_of_file(file.name) == standard) {
+            add_names(reports::bytes_of(file).value_or(""), names_of_standard);
+        }
+    }
+    const std::string amended = amended_record(record);
+    std::vector<std::string> places;
+    for (const reports::InputFile& file : record.job_files) {
+        if (standard_of_file(file.name).empty() && (amended.empty() || file.name != amended)) {
+            const nlohmann::json content =
+                nlohmann::json::parse(reports::bytes_of(file).value_or(""), nullptr, false, true);
+            for (const std::string& place : stated_by_hand(content, names_of_standard)) {
+                places.push_back(file.name + "#" + place);
+            }
+        }
+    }
+    return places;
+}
+
+/// Some places in words.
+std::string in_words(const std::vector<std::string>& places) {
+    constexpr std::size_t k_most = 3;
+    std::string words;
+    for (std::size_t i = 0; i < std::min(places.size(), k_most); ++i) {
+        words += (i > 0 ? ", " : "") + text::visible(places[i], 120);
+    }
+    return words + (places.size() > k_most ? " and " + std::to_string(places.size() - k_most) + " more" : "");
+}
+
+/// Why nothing can be said of a certificate that comes out the same: not all that rests on the standard was corrected. "" where
+/// it comes out otherwise, or all was.
+std::string why_it_is_not_the_same(const Recalculation& one, const std::string& waits_for) {
+    const bool decides_otherwise = one.rerun.count(evaluation::ChangeKind::verdict) > 0;
+    return one.states_otherwise() || decides_otherwise ? ""
+           : !one.not_corrected.empty() ? "with the corrected file it comes out the same, and its job states something "
+                                          "of the standard itself: " +
+                                              in_words(one.not_corrected)
+           : !waits_for.empty() ? "with the corrected file it comes out the same, and it rests on " + waits_for
+                                : "";
 }
 
 /// A record with the corrected standard among the files of its job, and what comes of it.
@@ -411,6 +575,59 @@ struct Recalculated {
     Recalculation result;
     reports::EvaluationRecord corrected;
 };
+
+/// What this version makes of a record with its own files; none where it makes nothing of them.
+std::optional<reports::EvaluationRecord> with_own_files(const std::string& number, const std::string& original,
+                                                        const Correction& correction) {
+    try {
+        return evaluation::evaluated_again(reports::record_from_json(original, number), number, 1, correction.templates,
+                                           correction.watch ? correction.watch() : gum::Progress());
+    } catch (const gum::InputError&) {
+        return std::nullopt;
+    }
+}
+
+/// What the corrected standard changes in a record. What this version of the program states otherwise than the one that made the
+/// record, also with the files that the record holds, is no effect of the correction.
+/// \param record  as it was issued
+/// \param issued, now  values of it, and of what comes of it
+void tell_effect(const reports::EvaluationRecord& record, const nlohmann::json& issued,
+                 const reports::EvaluationRecord& again, const nlohmann::json& now, const std::string& original,
+                 const Correction& correction, Recalculation& result) {
+    evaluation::RerunRecord rerun = result.rerun;  // which stays as it is where a limit ends the second evaluation
+    evaluation::tell_changes(issued, now, rerun);
+    std::vector<certificate::Change> stated = stated_changes(record, again);
+    result.shift = largest_shift(issued, now);
+    const bool is_of_other_version = std::tie(record.software.version, record.software.commit) !=
+                                     std::tie(again.software.version, again.software.commit);
+    if (is_of_other_version && (rerun.is_negative() || !stated.empty())) {
+        if (const std::optional<reports::EvaluationRecord> own = with_own_files(rerun.name, original, correction)) {
+            const nlohmann::json own_value = reports::to_json_value(*own);
+            evaluation::RerunRecord of_version;
+            evaluation::tell_changes(issued, own_value, of_version);
+            std::size_t shown = 0;
+            for (const evaluation::RecordChange& change : taken_out(rerun.changes, of_version.changes)) {
+                --rerun.counts.at(static_cast<std::size_t>(change.kind));
+                shown += is_shown(change) ? std::size_t{1} : 0;
+            }
+            result.of_version = taken_out(stated, stated_changes(record, *own));
+            result.shift = largest_shift(own_value, now);
+            if (shown > 0 || !result.of_version.empty()) {
+                result.version_in_words =
+                    "another version of gumcert made it, and this one states some of it otherwise whatever the "
+                    "standard: see gumcert rerun";
+            }
+            result.of_version.resize(std::min(result.of_version.size(), evaluation::k_most_changes));
+        } else {
+            result.version_in_words =
+                "another version of gumcert made it, and this one makes nothing of its own files: what the version "
+                "changes is among it";
+        }
+    }
+    std::erase_if(rerun.changes, [](const evaluation::RecordChange& change) { return !is_shown(change); });
+    result.rerun = std::move(rerun);
+    tell_what_is_stated(record, stated, result);
+}
 
 Recalculated recalculated(const std::string& number, const std::string& waits_for, const std::string& original,
                           const Correction& correction) {
@@ -422,6 +639,7 @@ Recalculated recalculated(const std::string& number, const std::string& waits_fo
         record = std::move(read.record);
         rerun.made_by = record.software;
         rerun.kind = record.kind;
+        std::vector<std::string> own = own_statements(record, correction.standard);
         if (const std::optional<gum::Diagnostic> missing = evaluation::files_not_held(record, number)) {
             rerun.not_evaluated = cannot_say(number, missing->what);
         } else if (!correct_files(record, correction)) {
@@ -431,11 +649,11 @@ Recalculated recalculated(const std::string& number, const std::string& waits_fo
         } else {
             const reports::EvaluationRecord again = evaluation::evaluated_again(
                 record, number, 1, correction.templates, correction.watch ? correction.watch() : gum::Progress());
-            const nlohmann::json now = reports::to_json_value(again);
-            evaluation::tell_changes(read.value, now, rerun);
-            done.result.texts = texts_that_change(record, again);
-            std::erase_if(rerun.changes, [](const evaluation::RecordChange& change) { return !is_shown(change); });
-            done.result.shift = largest_shift(read.value, now);
+            tell_effect(record, read.value, again, reports::to_json_value(again), original, correction, done.result);
+            done.result.not_corrected = std::move(own);
+            if (const std::string what = why_it_is_not_the_same(done.result, waits_for); !what.empty()) {
+                rerun.not_evaluated = cannot_say(number, what);
+            }
         }
     } catch (const gum::DiagnosedError& error) {
         rerun.not_evaluated = cannot_say(number, error.diagnostics().front().what);
@@ -443,17 +661,61 @@ Recalculated recalculated(const std::string& number, const std::string& waits_fo
     return done;
 }
 
-bool is_before_issue(const std::string& state) {
-    return state == "drafted" || state == "reviewed" || state == "authorised";
+/// Of what changes in a record and not in what an amendment would state; "" where nothing does.
+std::string why_nothing_is_stated(const Recalculation& one) {
+    return one.rerun.not_evaluated || !one.rerun.is_negative() ? ""
+           : one.rerun.count(evaluation::ChangeKind::verdict) > 0
+               ? "it states the same outside of its annexes, and the program decides otherwise: evaluate its job with "
+                 "the "
+                 "corrected standard, and look at the findings"
+               : "it states the same outside of its annexes: digits of its budget alone change";
 }
 
 bool needs_amendment(const AffectedCertificate& one) {
-    return one.recalculated && one.recalculated->states_otherwise() && one.certificate.state == "issued";
+    return one.recalculated && one.recalculated->states_otherwise() &&
+           (one.certificate.state == "issued" || !one.withdrawn_amendment.empty());
+}
+
+std::string in_words(const std::vector<certificate::Change>& changes) {
+    std::vector<std::string> words;
+    for (const certificate::Change& change : changes) {
+        words.push_back(change.where + " " + text::in_quotes(change.before) + " -> " + text::in_quotes(change.after));
+    }
+    return in_words(words);
+}
+
+/// Records of a certificate; "" where nothing is to be done with them.
+struct RecordsToRead {
+    std::string original, withdrawn;  ///< and of its amendment that was withdrawn
+};
+
+/// Why a draft of the original would state less than is known: it takes back what a withdrawn amendment had corrected, and whether that
+/// still holds only the laboratory knows. "" where nothing is lost.
+std::string why_it_would_take_back(const AffectedCertificate& one, const RecordsToRead& records) {
+    std::vector<certificate::Change> lost;
+    try {
+        const reports::EvaluationRecord withdrawn =
+            reports::record_from_json(records.withdrawn, one.withdrawn_amendment);
+        const reports::EvaluationRecord original = reports::record_from_json(records.original, one.certificate.number);
+        if ((withdrawn.certificate && original.certificate) || (withdrawn.comparison && original.comparison)) {
+            lost = stated_changes(original, withdrawn);
+            (void)taken_out(lost, one.recalculated->stated);
+            (void)taken_out(lost, one.recalculated->of_version);
+            return lost.empty() ? ""
+                                : "it would take back what " + one.withdrawn_amendment +
+                                      ", which was withdrawn, had stated otherwise: " + in_words(lost) +
+                                      "; decide what holds, and amend it by hand";
+        }
+    } catch (const gum::DiagnosedError&) {  // told below
+    }
+    return "what " + one.withdrawn_amendment +
+           ", which was withdrawn, had stated otherwise cannot be read from its record: amend it by hand";
 }
 
 /// Calculates a certificate again where that is not done, and drafts its amendment where one is needed.
-void work_out(AffectedCertificate& one, const std::string& original, const Correction& correction,
+void work_out(AffectedCertificate& one, const RecordsToRead& records, const Correction& correction,
               const DraftSink& drafts) {
+    const std::string& original = records.original;
     std::optional<reports::EvaluationRecord> corrected;
     if (!one.recalculated) {
         Recalculated done = recalculated(one.certificate.number, waits_for(one), original, correction);
@@ -465,13 +727,23 @@ void work_out(AffectedCertificate& one, const std::string& original, const Corre
     }
     if (!needs_amendment(one)) {
         one.no_draft =
-            !one.recalculated->states_otherwise() ? ""
+            !one.recalculated->states_otherwise() ? why_nothing_is_stated(*one.recalculated)
             : is_before_issue(one.certificate.state)
                 ? "it is " + one.certificate.state +
                       ", and not issued: evaluate its job with the corrected "
                       "standard, and add the record"
                 : "it is " + one.certificate.state + ": where what took its place changes, too, that is amended";
         return;
+    }
+    if (!one.amendment_under_way.empty()) {
+        one.no_draft = one.amendment_under_way + ", which amends it, is not issued yet: state there what changes";
+        return;
+    }
+    if (!one.withdrawn_amendment.empty()) {
+        one.no_draft = why_it_would_take_back(one, records);
+        if (!one.no_draft.empty()) {
+            return;
+        }
     }
     if (!corrected) {  // another machine has calculated it
         corrected = reports::record_from_json(original, one.certificate.number);
@@ -486,27 +758,31 @@ void work_out(AffectedCertificate& one, const std::string& original, const Corre
     }
 }
 
-/// Records of some certificates, "" where nothing is to be done with one.
-std::vector<std::string> originals_of(const std::vector<AffectedCertificate>& affected, std::size_t from,
+/// Records of some certificates.
+std::vector<RecordsToRead> records_of(const std::vector<AffectedCertificate>& affected, std::size_t from,
                                       std::size_t to, Archive& archive) {
-    std::vector<std::string> originals;
+    std::vector<RecordsToRead> records(to - from);
     for (std::size_t i = from; i < to; ++i) {
         const AffectedCertificate& one = affected[i];
-        originals.push_back(
-            !one.recalculated || needs_amendment(one) ? archive.content(one.certificate.record).value_or("") : "");
+        if (!one.recalculated || needs_amendment(one)) {
+            records[i - from].original = archive.content(one.certificate.record).value_or("");
+            records[i - from].withdrawn =
+                one.withdrawn_record.empty() ? "" : archive.content(one.withdrawn_record).value_or("");
+        }
     }
-    return originals;
+    return records;
 }
 
-constexpr std::array<const char*, 5> k_outcomes = {"verdict", "printed", k_text, "cannot_say", "same"};
+constexpr std::array<const char*, 6> k_outcomes = {"verdict", "printed", k_text, "cannot_say", "budget", "same"};
 
 /// Index of k_outcomes: what a person reads first comes first.
 std::size_t index_of_outcome(const Recalculation& one) {
     return one.rerun.not_evaluated                                ? 3
            : one.rerun.count(evaluation::ChangeKind::verdict) > 0 ? 0
-           : one.rerun.count(evaluation::ChangeKind::printed) > 0 ? 1
+           : one.results_change                                   ? 1
            : !one.texts.empty()                                   ? 2
-                                                                  : 4;
+           : one.rerun.count(evaluation::ChangeKind::printed) > 0 ? 4
+                                                                  : 5;
 }
 
 auto rank_of(const AffectedCertificate& one) {
@@ -562,6 +838,7 @@ std::vector<AffectedCertificate> find_affected(Archive& archive, const WrongStan
     }
     std::vector<AffectedCertificate> affected;
     std::set<std::size_t> known;
+    std::map<std::size_t, std::size_t> places;  // in the answer, of records
     struct Wanted {
         std::string name, through, through_state;
     };
@@ -575,12 +852,17 @@ std::vector<AffectedCertificate> find_affected(Archive& archive, const WrongStan
         const ListedCertificate& certificate = records[i].certificate;
         const bool is_read = records[i].references.has_value();
         if (certificate.state != k_withdrawn) {
+            places[i] = affected.size();
+            const RecordSearch::Amendment withdrawn = search.withdrawn_amendment(certificate.number);
             affected.push_back({.certificate = certificate,
                                 .used_from = is_read ? records[i].references->used_from : "",
                                 .used_to = is_read ? records[i].references->used_to : "",
                                 .because = std::move(because),
                                 .through = by.through,
                                 .through_state = by.through_state,
+                                .withdrawn_amendment = withdrawn.number,
+                                .withdrawn_record = withdrawn.record,
+                                .amendment_under_way = search.amendment_under_way(certificate.number),
                                 .draft_number = search.free_number(certificate.number)});
         }
         wanted.push_back({certificate.number, certificate.number, certificate.state});
@@ -597,10 +879,16 @@ std::vector<AffectedCertificate> find_affected(Archive& archive, const WrongStan
         for (const std::size_t i : texts.that_name(next.name)) {
             const SearchedRecord& record = records[i];
             // A standard that was calibrated with a wrong one stays wrong: only the first step has a last day.
-            if (record.certificate.number != next.name &&
-                is_in_period(*record.references, standard.since, next.through.empty() ? standard.until : "") &&
-                known.insert(i).second) {
+            if (record.certificate.number == next.name ||
+                !is_in_period(*record.references, standard.since, next.through.empty() ? standard.until : "")) {
+                continue;
+            }
+            const auto found = places.find(i);
+            if (known.insert(i).second) {
                 find(i, next, references_that_name(next.name, *record.references));
+            } else if (found != places.end() && !next.through.empty() && affected[found->second].also_through.empty()) {
+                affected[found->second].also_through = next.through;
+                affected[found->second].also_through_state = next.through_state;
             }
         }
     }
@@ -612,9 +900,10 @@ std::vector<AffectedCertificate> find_affected(Archive& archive, const WrongStan
 }
 
 std::string waits_for(const AffectedCertificate& certificate) {
-    return certificate.through.empty()                ? ""
-           : certificate.through_state == k_withdrawn ? certificate.through + ", which was withdrawn"
-                                                      : certificate.through + ", which is to be amended first";
+    const bool is_direct = certificate.through.empty();
+    const std::string& other = is_direct ? certificate.also_through : certificate.through;
+    const std::string& state = is_direct ? certificate.also_through_state : certificate.through_state;
+    return other.empty() ? "" : other + (state == k_withdrawn ? ", which was withdrawn" : ", which is listed, too");
 }
 
 Recalculation recalculation_of(const std::string& number, const std::string& waits_for, const std::string& original,
@@ -627,19 +916,19 @@ void recalculate(std::vector<AffectedCertificate>& affected, Archive& archive, c
     gum::WorkerThreads workers(threads);
     const auto finish = drafts.finish ? drafts.finish : [] {};
     const auto end_of = [&](std::size_t first) { return std::min(first + k_records_at_once, affected.size()); };
-    std::vector<std::string> originals = originals_of(affected, 0, end_of(0), archive);
+    std::vector<RecordsToRead> records = records_of(affected, 0, end_of(0), archive);
     for (std::size_t first = 0; first < affected.size(); first = end_of(first)) {
         // Beside the calculation: the drafts before come to the disk, and the records after are read.
-        std::vector<std::string> next;
+        std::vector<RecordsToRead> next;
         std::future<void> disk = std::async(beside(workers), [&, after = end_of(first)] {
             finish();
-            next = originals_of(affected, after, end_of(after), archive);
+            next = records_of(affected, after, end_of(after), archive);
         });
-        workers.run(originals.size(), [&](unsigned /*worker*/, std::size_t task) {
-            work_out(affected[first + task], originals[task], correction, drafts);
+        workers.run(records.size(), [&](unsigned /*worker*/, std::size_t task) {
+            work_out(affected[first + task], records[task], correction, drafts);
         });
         disk.get();
-        originals = std::move(next);
+        records = std::move(next);
         if (progress) {
             progress(std::to_string(end_of(first)) + " of " + std::to_string(affected.size()) + " calculated");
         }
@@ -664,10 +953,31 @@ std::string affected_text(const std::vector<AffectedCertificate>& affected) {
         text += one.draft_folder.empty() ? "" : "  draft " + one.draft_folder;
         text += "\n    " + through_text(one) + word_of(one.because.front().kind) + " \"" +
                 text::visible(one.because.front().text, 120) + "\"\n";
+        if (!one.withdrawn_amendment.empty()) {
+            text += "    " + text::visible(one.withdrawn_amendment, 80) + ", which took its place, was withdrawn" +
+                    (one.amendment_under_way.empty() ? ": amend it once more, or withdraw it\n" : "\n");
+        }
+        if (!one.amendment_under_way.empty() && one.no_draft.empty()) {
+            text += "    " + text::visible(one.amendment_under_way, 80) + ", which amends it, is not issued yet\n";
+        }
         if (one.recalculated && one.recalculated->rerun.not_evaluated) {
             text += "    " + text::visible(one.recalculated->rerun.not_evaluated->what, 200) + "\n";
         }
-        text += one.no_draft.empty() ? "" : "    no draft: " + one.no_draft + "\n";
+        const std::string nothing_stated = one.recalculated && !one.recalculated->states_otherwise()
+                                               ? why_nothing_is_stated(*one.recalculated)
+                                               : std::string();
+        text += !nothing_stated.empty() ? "    " + nothing_stated + "\n"
+                : one.no_draft.empty()  ? ""
+                                        : "    no draft: " + one.no_draft + "\n";
+        if (one.recalculated && !one.recalculated->rerun.not_evaluated) {
+            const std::string waits = waits_for(one);
+            text += one.recalculated->not_corrected.empty() ? ""
+                                                            : "    not corrected, because its job states it itself: " +
+                                                                  in_words(one.recalculated->not_corrected) + "\n";
+            text += waits.empty() ? "" : "    it rests on " + text::visible(waits, 120) + "\n";
+            const std::string& of_version = one.recalculated->version_in_words;
+            text += of_version.empty() ? "" : "    " + of_version + "\n";
+        }
         constexpr std::size_t k_most_texts = 3;
         for (std::size_t i = 0; one.recalculated && i < std::min(one.recalculated->texts.size(), k_most_texts); ++i) {
             const evaluation::RecordChange& change = one.recalculated->texts[i];
@@ -698,6 +1008,11 @@ std::string affected_json(const std::vector<AffectedCertificate>& affected, cons
                              {"because", std::move(because)},
                              {"through", one.through},
                              {"through_state", one.through_state},
+                             {"also_through", one.also_through},
+                             {"withdrawn_amendment", one.withdrawn_amendment},
+                             {"amendment_under_way", one.amendment_under_way},
+                             {"version_in_words", ""},
+                             {"not_corrected", nlohmann::json::array()},
                              {"outcome", outcome_of(one)},
                              {"shift", nullptr},
                              {"changes", nlohmann::json::array()},
@@ -707,6 +1022,8 @@ std::string affected_json(const std::vector<AffectedCertificate>& affected, cons
         if (one.recalculated) {
             const evaluation::RerunRecord& rerun = one.recalculated->rerun;
             shown["changes"] = shown_change_list(*one.recalculated);
+            shown["not_corrected"] = one.recalculated->not_corrected;
+            shown["version_in_words"] = one.recalculated->version_in_words;
             if (rerun.not_evaluated) {
                 shown["cannot_say"] = rerun.not_evaluated->what;
             } else {

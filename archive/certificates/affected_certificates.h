@@ -10,6 +10,7 @@
 
 #include "archive/archive.h"
 #include "archive/certificates/standard_references.h"
+#include "certificate/certified_results.h"
 #include "evaluation/rerun_record.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/progress.h"
@@ -31,14 +32,24 @@ struct Recalculation {
         rerun;           ///< not_evaluated where nothing can be said, GC-ARCHIVE-0062; of the changes it lists those of
                          ///< printed digits and verdicts
     double shift = 0.0;  ///< largest change of a value or of its U, relative to the U that was issued
-    /// Texts of the certificate data that change, such as the certificate of the standard in a row of traceability; the first
-    /// ones. Their kind is `other`.
+    /// Texts and numbers of the certificate data that change, such as certificate and U of the standard in a row of
+    /// traceability; the first ones. Their kind is `other`.
     std::vector<evaluation::RecordChange> texts = {};
+    /// All that an amendment would tell, as its list has it; the first ones.
+    std::vector<certificate::Change> stated = {};
+    /// Of a record of another version of the program: what an amendment would tell as well, and what this version states otherwise
+    /// with the files of the record, too; the first ones. None of it is an effect of the correction, nor among `rerun`.
+    std::vector<certificate::Change> of_version = {};
+    std::string version_in_words = {};  ///< what a person should know of the other version; "" where there is nothing
+    /// A value, uncertainty or verdict that the certificate or report states changes; digits of the budget of a certificate are
+    /// none.
+    bool results_change = false;
+    /// Where the job states something of the standard itself, which is not corrected: "job.json#/inputs/d/source". Where nothing
+    /// else changes either, nothing can be said.
+    std::vector<std::string> not_corrected = {};
 
-    /// Whether the certificate would state anything else than it does.
-    [[nodiscard]] bool states_otherwise() const {
-        return !rerun.not_evaluated && (rerun.is_negative() || !texts.empty());
-    }
+    /// Whether the certificate would state anything else than it does, outside of its annexes: what an amendment tells.
+    [[nodiscard]] bool states_otherwise() const { return !rerun.not_evaluated && (results_change || !texts.empty()); }
 };
 
 /// A certificate that rests on it.
@@ -46,10 +57,16 @@ struct AffectedCertificate {
     ListedCertificate certificate;
     std::string used_from, used_to;          ///< days of the work; "" where the record states none
     std::vector<StandardReference> because;  ///< what its record says
-    std::string through;          ///< number of the certificate that it rests on itself; "" where on the standard
-    std::string through_state;    ///< of that certificate, which may be withdrawn
-    std::string draft_number;     ///< the next free number of an amendment of it
-    std::string draft_name = {};  ///< of a folder for its draft, another one for each certificate that was found
+    std::string through;        ///< number of the certificate that it rests on itself; "" where on the standard
+    std::string through_state;  ///< of that certificate, which may be withdrawn
+    /// Of one that rests on the standard: another certificate that was found, and on which it rests, too; "" else.
+    std::string also_through = {};
+    std::string also_through_state = {};
+    std::string withdrawn_amendment;  ///< number of what took its place and was withdrawn; "" else
+    std::string withdrawn_record;     ///< SHA-256 of the record of that; "" else
+    std::string amendment_under_way;  ///< number of a draft that amends or replaces it and is not issued yet; "" else
+    std::string draft_number;         ///< the next free number of an amendment of it
+    std::string draft_name = {};      ///< of a folder for its draft, another one for each certificate that was found
 
     std::optional<Recalculation> recalculated = {};
     std::string draft_folder =
@@ -78,7 +95,8 @@ struct Correction {
     std::shared_ptr<reports::ReadWordings> wordings = std::make_shared<reports::ReadWordings>();  ///< of all that is drafted
 };
 
-/// On which certificate one rests that is not right itself: "EX-1, which is to be amended first"; "" where on the standard.
+/// On which certificate one rests that is not right itself: "EX-1, which is listed, too"; "" where on the standard
+/// alone.
 [[nodiscard]] std::string waits_for(const AffectedCertificate& certificate);
 
 /// Evaluates the job of an affected record with the corrected standard, and compares with what was issued.
@@ -95,8 +113,10 @@ struct DraftSink {
     std::function<void()> finish = {};
 };
 
-/// Calculates all certificates again that are not yet, drafts an amendment of each issued one of which a printed digit, a
-/// verdict or a text changes, and ranks them; on several cores, with the same result for any number of threads.
+/// Calculates all certificates again that are not yet, drafts an amendment of each one that is issued, or whose amendment was
+/// withdrawn, and of which a printed digit, a verdict or a text changes, and ranks them; on several cores, with the same result for
+/// any number of threads. None is drafted beside an amendment that is under way, nor one that would take back what a withdrawn
+/// amendment had stated otherwise.
 /// \param archive  in which they were found
 void recalculate(std::vector<AffectedCertificate>& affected, Archive& archive, const Correction& correction,
                  unsigned threads, const DraftSink& drafts = {}, const gum::Progress& progress = {});

@@ -32,6 +32,25 @@ gum::Diagnostic diagnostic_in(const json& value) {
             .action = gumcert::json::text_of(value, "action")};
 }
 
+json as_list(const std::vector<certificate::Change>& changes) {
+    json list = json::array();
+    for (const certificate::Change& change : changes) {
+        list.push_back({change.kind, change.where, change.before, change.after});
+    }
+    return list;
+}
+
+std::vector<certificate::Change> changes_in(const json& list) {
+    std::vector<certificate::Change> changes;
+    for (const json& change : list) {
+        changes.push_back({.kind = change.at(0).get<std::string>(),
+                           .where = change.at(1).get<std::string>(),
+                           .before = change.at(2).get<std::string>(),
+                           .after = change.at(3).get<std::string>()});
+    }
+    return changes;
+}
+
 std::string as_text(const Recalculation& one) {
     json changes = json::array();
     for (const evaluation::RecordChange& change : one.rerun.changes) {
@@ -42,7 +61,12 @@ std::string as_text(const Recalculation& one) {
         texts.push_back({change.place, change.before, change.now});
     }
     return dumped({{"changes", std::move(changes)},
+                   {"stated", as_list(one.stated)},
+                   {"of_version", as_list(one.of_version)},
+                   {"version_in_words", one.version_in_words},
                    {"texts", std::move(texts)},
+                   {"results_change", one.results_change},
+                   {"not_corrected", one.not_corrected},
                    {"counts", one.rerun.counts},
                    {"made_by", {one.rerun.made_by.version, one.rerun.made_by.commit}},
                    {"kind", one.rerun.kind},
@@ -56,12 +80,17 @@ Recalculation recalculation_in(const std::string& number, const std::string& tex
     one.rerun.made_by.version = value.at("made_by").at(0).get<std::string>();
     one.rerun.made_by.commit = value.at("made_by").at(1).get<std::string>();
     one.rerun.kind = gumcert::json::text_of(value, "kind");
+    one.results_change = value.at("results_change").get<bool>();
+    one.not_corrected = value.at("not_corrected").get<std::vector<std::string>>();
     value.at("counts").get_to(one.rerun.counts);
     for (const json& change : value.at("changes")) {
         one.rerun.changes.push_back({static_cast<evaluation::ChangeKind>(change.at(0).get<int>()),
                                      change.at(1).get<std::string>(), change.at(2).get<std::string>(),
                                      change.at(3).get<std::string>()});
     }
+    one.stated = changes_in(value.at("stated"));
+    one.of_version = changes_in(value.at("of_version"));
+    one.version_in_words = value.at("version_in_words").get<std::string>();
     for (const json& change : value.at("texts")) {
         one.texts.push_back({evaluation::ChangeKind::other, change.at(0).get<std::string>(),
                              change.at(1).get<std::string>(), change.at(2).get<std::string>()});

@@ -20,7 +20,7 @@ using ReferenceKind = StandardReference::Kind;
 
 /// Whether everything below a key is looked at: what names standards, files of the job, days of the work.
 bool is_looked_at(std::string_view key) {
-    static constexpr std::array<std::string_view, 6> k_keys{"dates",  "files",    "sensor",
+    static constexpr std::array<std::string_view, 7> k_keys{"dates",  "files",    "issuer",   "sensor",
                                                             "source", "standard", "standards"};
     return std::find(k_keys.begin(), k_keys.end(), key) != k_keys.end();
 }
@@ -131,7 +131,8 @@ public:
         if (const nlohmann::json& content = gumcert::json::part_of(file, "content"); content.is_string()) {
             held.content = content.get<std::string>();
         }
-        const nlohmann::json standard = nlohmann::json::parse(reports::bytes_of(held).value_or(""), nullptr, false);
+        const nlohmann::json standard =
+            nlohmann::json::parse(reports::bytes_of(held).value_or(""), nullptr, false, true);
         const nlohmann::json& calibrations = gumcert::json::part_of(standard, "calibrations");
         for (const nlohmann::json& calibration : calibrations.is_array() ? calibrations : nlohmann::json::array()) {
             take(ReferenceKind::registered, gumcert::json::text_of(calibration, "certificate"));
@@ -166,6 +167,54 @@ private:
                 take(ReferenceKind::traceability, gumcert::json::text_of(row, "certificate"));
             } else {
                 take_texts(ReferenceKind::traceability, row);
+            }
+        }
+    }
+};
+
+/// Looks for what a file of a job states of a standard itself.
+class OwnStatements {
+public:
+    explicit OwnStatements(const std::vector<std::string>& standard) : standard_(standard) {}
+
+    void walk(const nlohmann::json& value, const nlohmann::json::json_pointer& at) {
+        if (!value.is_structured()) {
+            return;
+        }
+        const bool is_registered = value.is_object() && names_it(gumcert::json::part_of(value, "standard"));
+        std::size_t row = 0;
+        for (const auto& item : value.items()) {
+            const nlohmann::json::json_pointer place = value.is_array() ? at / row++ : at / item.key();
+            const bool is_source = value.is_object() && (item.key() == "source" || item.key() == "sensor");
+            if (is_source && !is_registered && names_it(item.value())) {
+                places_.push_back(place.to_string());
+            } else if (value.is_object() && item.key() == "standards" && item.value().is_array()) {
+                look_at_rows(item.value(), place);
+            } else {
+                walk(item.value(), place);
+            }
+        }
+    }
+    [[nodiscard]] std::vector<std::string> places() && { return std::move(places_); }
+
+private:
+    const std::vector<std::string>& standard_;
+    std::vector<std::string> places_;
+
+    /// Of a text, or of texts in several languages.
+    [[nodiscard]] bool names_it(const nlohmann::json& value) const {
+        if (value.is_string()) {
+            return std::ranges::any_of(
+                standard_, [&](const std::string& name) { return names(value.get_ref<const std::string&>(), name); });
+        }
+        return value.is_structured() &&
+               std::any_of(value.begin(), value.end(), [&](const nlohmann::json& item) { return names_it(item); });
+    }
+    void look_at_rows(const nlohmann::json& rows, const nlohmann::json::json_pointer& at) {
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            if (rows[i].is_object() && (names_it(gumcert::json::part_of(rows[i], "identification")) ||
+                                        names_it(gumcert::json::part_of(rows[i], "certificate")))) {
+                places_.push_back((at / i).to_string());
             }
         }
     }
@@ -312,9 +361,20 @@ std::optional<RecordReferences> references_of(std::string_view record) {
     collector.walk(value);
     const nlohmann::json& dates =
         gumcert::json::part_of(gumcert::json::part_of(gumcert::json::part_of(value, "certificate"), "data"), "dates");
+    std::string used_to = first_stated(dates, {"performed_to", "performed_from", "authorised", "issued"});
+    if (used_to.empty()) {  // of the report of a comparison
+        used_to = gumcert::json::text_of(gumcert::json::part_of(gumcert::json::part_of(value, "comparison"), "issuer"),
+                                         "issued");
+    }
     return RecordReferences{.references = std::move(collector).references(),
                             .used_from = gumcert::json::text_of(dates, "performed_from"),
-                            .used_to = first_stated(dates, {"performed_to", "performed_from", "authorised", "issued"})};
+                            .used_to = std::move(used_to)};
+}
+
+std::vector<std::string> stated_by_hand(const nlohmann::json& file, const std::vector<std::string>& standard) {
+    OwnStatements own(standard);
+    own.walk(file, nlohmann::json::json_pointer());
+    return std::move(own).places();
 }
 
 bool names(std::string_view text, std::string_view name) {

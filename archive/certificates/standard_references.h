@@ -1,5 +1,6 @@
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -34,6 +35,13 @@ struct RecordReferences {
 /// \param record  its bytes
 /// \return none where it is no JSON object
 [[nodiscard]] std::optional<RecordReferences> references_of(std::string_view record);
+
+/// Where a file of a job states something of a standard itself, in place of taking it from the register: a text at the key
+/// `source` or `sensor` that names it, but beside such a `standard`, and a row of `standards` with members. JSON pointers, in
+/// their order.
+/// \param standard  its name, and those of its certificates
+[[nodiscard]] std::vector<std::string> stated_by_hand(const nlohmann::json& file,
+                                                      const std::vector<std::string>& standard);
 
 /// Whether a text names something: all of it is the name, or the name stands in it as a word of its own. "STD-017" stands in
 /// "STD-017, certificate 12", in quotes of any language and in Chinese without blanks, and neither in "STD-0171" nor in "STD-017-2"

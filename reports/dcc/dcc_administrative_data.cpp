@@ -396,6 +396,11 @@ void status_statements(DccWriter& w) {
             w.statement("finding", finding_text);
         }
     }
+    if (certificate && !certificate->superseded_by.empty()) {
+        Text text = words.filled("document", "superseded", {{"number", certificate->superseded_by}});
+        append_line(text, words("document", "superseded_reason"));
+        w.statement("superseded", text);
+    }
     if (w.has_scope() && certificate->symbol) {
         const certificate::Accreditation& a = *w.data().accreditation;
         w.xml.open("dcc:statement", {{"refType", w.ref_types()("accreditation")}});

@@ -777,13 +777,15 @@ const XmlElement* descend(const XmlElement* from, std::initializer_list<const ch
     return from;
 }
 
-/// What a document says of itself: this program marks drafts and specimens; others write it in the number.
+/// What a document says of itself: this program marks drafts, specimens and what is superseded; others write it in the number.
 std::string state_of(const XmlElement& root, const std::string& identifier) {
     std::string state;
     for_each_element(root, [&](const XmlElement& e) {
         const std::string ref_type = e.name == "dcc:statement" ? e.attribute("refType") : "";
         if (ref_type == "gumcert_draft" || (ref_type == "gumcert_specimen" && state.empty())) {
             state = ref_type.substr(ref_type.find('_') + 1);
+        } else if (ref_type == "gumcert_superseded" && state.empty()) {
+            state = "superseded document";
         }
     });
     const std::string words = "_" + as_name(identifier) + "_";

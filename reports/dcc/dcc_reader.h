@@ -74,7 +74,7 @@ struct ImportedCertificate {
     std::string schema_version;  ///< "3.3.0"
     std::string identifier, laboratory, item, issued, performed_from, performed_to;
     std::string sha256;  ///< of the file
-    /// "draft" or "specimen" where the document says that it is one, else ""
+    /// "draft", "specimen" or "superseded document" where the document says that it is one, else ""
     std::string state;
     std::vector<ImportedItem> items;  ///< those with an id, pieces of sets among them
     std::vector<ImportedQuantity> quantities;

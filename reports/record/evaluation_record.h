@@ -465,6 +465,8 @@ struct ComparisonIssuer {
     std::string issued;  ///< "2026-11-21"
     /// Of a report that amends or replaces another one (ISO/IEC 17025:2017, 7.8.8).
     std::optional<certificate::Amendment> amendment = {};
+    /// As of certificates, certificate::Certificate::superseded_by: in no record.
+    std::string superseded_by = {};
 };
 
 /// The file that is the budget of a laboratory. Its name tells whose it is, so documents that must not name laboratories

@@ -54,8 +54,15 @@ bool is_specimen(const EvaluationRecord& record) {
     return !record.certificate || record.certificate->data.status == "specimen";
 }
 
+/// Number of the certificate or report that supersedes it; "" where none does.
+std::string superseding_number(const EvaluationRecord& record) {
+    return record.certificate                               ? record.certificate->superseded_by
+           : record.comparison && record.comparison->issuer ? record.comparison->issuer->superseded_by
+                                                            : "";
+}
+
 bool is_superseded(const EvaluationRecord& record) {
-    return record.certificate && !record.certificate->superseded_by.empty();
+    return !superseding_number(record).empty();
 }
 
 /// Of a position.
@@ -340,7 +347,7 @@ Text summarised_names(const std::vector<Text>& names, const Wording& words) {
 }
 
 Text superseded_mark(const EvaluationRecord& record, const Wording& words) {
-    return words.filled("document", "superseded", {{"number", record.certificate->superseded_by}});
+    return words.filled("document", "superseded", {{"number", superseding_number(record)}});
 }
 
 /// Values that one specification decides before, or after, an adjustment.
@@ -624,7 +631,7 @@ nlohmann::json identity_page(CertificateBuilder& builder, const Wording& words, 
             {"foot", foot(certificate, words)}};
 }
 
-nlohmann::json certificate_marks(const Wording& words, const EvaluationRecord& record) {
+nlohmann::json document_marks(const Wording& words, const EvaluationRecord& record, std::string_view report) {
     json marks = json::array();
     const auto mark = [&](const Text& text, const Text& reason) {
         marks.push_back({{"text", printable(text.first())},
@@ -635,13 +642,17 @@ nlohmann::json certificate_marks(const Wording& words, const EvaluationRecord& r
     if (is_draft(record)) {
         mark(words("document", "draft"), words("document", "draft_reason"));
     }
-    if (is_specimen(record)) {
+    if (report.empty() && is_specimen(record)) {
         mark(words("document", "mark"), words("document", record.certificate ? "specimen_reason" : "mark_reason"));
     }
     if (is_superseded(record)) {
-        mark(superseded_mark(record, words), words("document", "superseded_reason"));
+        mark(superseded_mark(record, words), words("document", std::string(report) + "superseded_reason"));
     }
     return marks;
+}
+
+std::string superseded_in_head(const Wording& words, const EvaluationRecord& record) {
+    return is_superseded(record) ? " · " + printable(superseded_mark(record, words).first()) : "";
 }
 
 nlohmann::json running_texts(const Wording& words, const EvaluationRecord& record) {
@@ -661,9 +672,7 @@ nlohmann::json running_texts(const Wording& words, const EvaluationRecord& recor
     if (is_specimen(record)) {
         head += " · " + words("document", "mark").first();
     }
-    if (is_superseded(record)) {
-        head += " · " + printable(superseded_mark(record, words).first());
-    }
+    head += superseded_in_head(words, record);
     return {{"header_left", shortened(printable(words.localised(data.laboratory.name).first()), 80)},
             {"header_right", head},
             {"footer_left", std::string(k_form) + " · " + record.software.name + " " + record.software.version}};

@@ -8,6 +8,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include <string>
+#include <string_view>
 
 namespace gumcert::reports {
 
@@ -18,9 +19,14 @@ namespace gumcert::reports {
 [[nodiscard]] nlohmann::json identity_page(CertificateBuilder& builder, const Wording& words,
                                            const EvaluationRecord& record);
 
-/// What stands in a box above everything: that a document is a draft, or a specimen. Empty for a certificate that can
+/// What stands in a box above everything: that a document is a draft, a specimen, or superseded. Empty for one that can
 /// be issued. An array of objects of the view.
-[[nodiscard]] nlohmann::json certificate_marks(const Wording& words, const EvaluationRecord& record);
+/// \param report  of a document that is no certificate, how its words begin (DocumentKind::report); "" else
+[[nodiscard]] nlohmann::json document_marks(const Wording& words, const EvaluationRecord& record,
+                                            std::string_view report);
+
+/// What the head of every page ends with, where a later document supersedes this one; "" on all others.
+[[nodiscard]] std::string superseded_in_head(const Wording& words, const EvaluationRecord& record);
 
 /// Head and foot of every page: {header_left, header_right, footer_left}, in the binding language.
 [[nodiscard]] nlohmann::json running_texts(const Wording& words, const EvaluationRecord& record);

@@ -185,7 +185,7 @@ nlohmann::json certificate_view(const EvaluationRecord& record, const Wording& w
         background(builder, words, record, kind);
     }
     view.update(frame(words, record));
-    view["mark"] = kind.is_report() ? json::array() : certificate_marks(words, record);
+    view["mark"] = document_marks(words, record, kind.report);
     if (!is_certificate) {  // the first page of a certificate says it
         const Text only = of_kind("only_items");
         view["closing"].push_back({{"text", only.first()}, {"also", also(only, languages)}});

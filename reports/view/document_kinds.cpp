@@ -396,7 +396,7 @@ json comparison_running_texts(const Wording& words, const EvaluationRecord& reco
     const std::string name = laboratory.empty() ? record.comparison->organiser : laboratory.first();
     const std::string title = shortened(printable(words.localised(title_of(record)).first()), 80);
     return {{"header_left", name.empty() ? title : shortened(printable(name), 80)},
-            {"header_right", printable(head.first())},
+            {"header_right", printable(head.first()) + superseded_in_head(words, record)},
             {"footer_left", "gumcert-comparison-1 · " + record.software.name + " " + record.software.version}};
 }
 

@@ -184,7 +184,15 @@ ExitCode find_affected(const ArchiveOptions& options, const CommonOptions& commo
     require_query(options);
     std::string corrected;
     if (!options.register_folder.empty()) {
-        corrected = evaluation::read_file(fs::path(options.register_folder) / "standards" / (options.source + ".json"));
+        const fs::path file = fs::path(options.register_folder) / "standards" / (options.source + ".json");
+        std::error_code error;
+        if (!fs::exists(file, error)) {
+            refuse_usage("archive affected", "there is no " + file.string(),
+                         "with --register the standard is named by its identification in the register, which is the "
+                         "folder with laboratory.json",
+                         "name that with --source, in place of the number of a certificate of it, or the other folder");
+        }
+        corrected = evaluation::read_file(file);
     }
     const std::unique_ptr<archive::WorkTable> table = options.shared ? opened_work(options) : nullptr;
     const auto store = opened(options, archive::Access::read_only);

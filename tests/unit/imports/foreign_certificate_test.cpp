@@ -97,11 +97,13 @@ TEST(ForeignCertificate, DraftsAndSpecimensAreTold) {
     };
     for (const std::string& text :
          {certificate(U, statement("gumcert_draft")), certificate(U, statement("gumcert_specimen")),
-          certificate(U, "", "EX-1 DRAFT"), certificate(U, "", "Entwurf 7"), certificate(U, "", "MUSTER-1")}) {
+          certificate(U, statement("gumcert_superseded")), certificate(U, "", "EX-1 DRAFT"),
+          certificate(U, "", "Entwurf 7"), certificate(U, "", "MUSTER-1")}) {
         EXPECT_THAT(errors_and_warnings(check_certificate(text, "a.xml", trust())), Contains("GC-DCC-0040"));
         const ImportedJob job = import_certificate(text, "a.xml", trust());
         EXPECT_THAT(errors_and_warnings(job.remarks), Contains("GC-DCC-0040"));
         EXPECT_TRUE(job.job.find("draft of certificate") != std::string::npos ||
+                    job.job.find("superseded document of certificate") != std::string::npos ||
                     job.job.find("specimen of certificate") != std::string::npos)
             << job.job;
     }

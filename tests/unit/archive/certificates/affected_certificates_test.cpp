@@ -159,6 +159,12 @@ TEST_F(ArchiveOfStandards, AreFoundAllOfThemAndNoOther) {
         EXPECT_FALSE(expected.empty());
         EXPECT_EQ(found(wrong, 1), expected) << wrong.name;
         EXPECT_EQ(found(wrong, 3), expected) << wrong.name;
+        for (const AffectedCertificate& one : find_affected(archive_, wrong, 1)) {
+            const Truth& of = truth[static_cast<std::size_t>(std::stoi(one.certificate.number.substr(3)))];
+            const bool is_through =
+                std::ranges::any_of(of.certificates, [&](int other) { return reached.contains(number(other)); });
+            EXPECT_EQ(one.through.empty() && one.also_through.empty(), !is_through) << one.certificate.number;
+        }
     }
 }
 
@@ -283,7 +289,21 @@ TEST_F(ArchiveOfStandards, AreCalculatedAgainAndRanked) {
               std::string::npos);
 }
 
-/// Whatever the register corrects: "same" is a certificate that would be printed alike.
+/// What a certificate states outside of its annexes: its data, and the texts of its tables.
+json stated_by(const reports::EvaluationRecord& record) {
+    const json value = reports::to_json_value(record)["certificate"];
+    json stated{{"data", value["data"]}, {"tables", json::array()}};
+    const json tables = value["tables"].flatten();
+    for (const auto& [pointer, leaf] : tables.items()) {
+        if (leaf.is_string()) {
+            stated["tables"].push_back(pointer + " " + leaf.get<std::string>());
+        }
+    }
+    return stated;
+}
+
+/// Whatever the register corrects: there is a draft of a certificate that would be printed otherwise, and of no other one, for
+/// an amendment that changes nothing is none.
 TEST_F(ArchiveOfStandards, AreSameWhereTheyWouldStateTheSame) {
     const std::filesystem::path folder = folder_.file("laboratory");
     std::filesystem::copy(k_affected_tree / "examples" / "laboratory", folder,
@@ -293,22 +313,27 @@ TEST_F(ArchiveOfStandards, AreSameWhereTheyWouldStateTheSame) {
                                         k_affected_tree / "templates")
             .record;
     };
-    const auto stated = [](const reports::EvaluationRecord& record) {
-        return reports::to_json_value(record)["certificate"]["data"];
-    };
     const reports::EvaluationRecord record = evaluated();
     add("EX-2026-0042", reports::to_canonical_json(record));
     add("EX-9", R"({"results": {"source": "STD-017"}})");
     const std::string registered = evaluation::read_file(folder / "laboratory" / "standards" / "STD-017.json");
     const json plain = json::parse(registered, nullptr, true, true);
-    std::size_t texts = 0;
-    const json texts_of_standard = plain.flatten();
-    for (const auto& [pointer, value] : texts_of_standard.items()) {
-        if (!value.is_string()) {
-            continue;
+    std::map<std::string, std::size_t> outcomes;
+    std::vector<std::pair<std::string, json>> changes;
+    const json leaves = plain.flatten();
+    for (const auto& [pointer, value] : leaves.items()) {
+        if (value.is_string()) {
+            changes.emplace_back(pointer, value.get<std::string>() + "9");
+        } else if (value.is_number() && pointer.ends_with("/value")) {
+            changes.emplace_back(pointer, value.get<double>() * (1.0 + 2e-8));
+            changes.emplace_back(pointer, value.get<double>() * (1.0 + 2e-9));
+        } else if (value.is_number() && pointer.starts_with("/calibrations/3/")) {  // the one in use
+            changes.emplace_back(pointer, value.get<double>() * 1.02);
         }
+    }
+    for (const auto& [pointer, value] : changes) {
         json changed = plain;
-        changed[json::json_pointer(pointer)] = value.get<std::string>() + "9";
+        changed[json::json_pointer(pointer)] = value;
         std::vector<AffectedCertificate> affected = find_affected(archive_, {"STD-017", "2026-03-02", ""}, 1);
         recalculate(affected, archive_,
                     {.standard = "STD-017",
@@ -328,19 +353,23 @@ TEST_F(ArchiveOfStandards, AreSameWhereTheyWouldStateTheSame) {
         }
         // The job evaluated anew, without the archive, is the oracle.
         std::ofstream(folder / "laboratory" / "standards" / "STD-017.json") << changed.dump();
-        EXPECT_EQ(outcome == "same" || outcome == "printed" || outcome == "verdict",
-                  stated(evaluated()) == stated(record))
-            << pointer << " " << outcome;
-        EXPECT_EQ(found->draft_folder.empty(), outcome == "same") << pointer;
-        EXPECT_EQ(found->no_draft, "") << pointer;
+        const json now = stated_by(evaluated());
+        const json before = stated_by(record);
+        EXPECT_EQ(found->draft_folder.empty(), now == before) << pointer << " " << value << " " << outcome;
+        EXPECT_EQ(outcome == "printed", now["tables"] != before["tables"] && outcome != "verdict") << pointer;
+        EXPECT_EQ(outcome == "same", now == before && outcome != "budget" && outcome != "verdict") << pointer;
+        EXPECT_EQ(found->no_draft.empty(), now != before || outcome == "same") << pointer << " " << outcome;
+        ++outcomes[outcome];
         if (outcome == "text") {
-            ++texts;
             EXPECT_EQ(affected[0].certificate.number, "EX-2026-0042") << "before what cannot be said";
             EXPECT_NE(affected_text(affected).find(recalculation.texts.front().place), std::string::npos) << pointer;
-            EXPECT_EQ(json::parse(affected_json(affected, {}))["certificates"][0]["changes"][0]["kind"], "text");
+            EXPECT_EQ(json::parse(affected_json(affected, {}))["certificates"][0]["changes"].back()["kind"], "text");
         }
     }
-    EXPECT_GE(texts, 2U) << "certificate and issuer of the calibration in use";
+    EXPECT_GE(outcomes["text"], 2U) << "certificate and issuer of the calibration in use";
+    for (const char* const outcome : {"printed", "budget", "same"}) {
+        EXPECT_GT(outcomes[outcome], 0U) << outcome;
+    }
 }
 
 /// Of each certificate that changes there is a draft, or the list says why there is none.
@@ -386,6 +415,270 @@ TEST_F(ArchiveOfStandards, HaveADraftOrAReason) {
     EXPECT_NE(affected_text(affected).find("no draft: it is drafted, and not issued"), std::string::npos);
     EXPECT_EQ(changes, json::parse(R"([{"en": "What is stated of the corrected standard STD-017",
                                         "de": "Angaben zum berichtigten Normal STD-017"}])"));
+}
+
+/// What a job states itself of a standard, and what rests on another certificate that is wrong, is not corrected with the register:
+/// of a certificate that comes out the same nothing can be said then.
+TEST_F(ArchiveOfStandards, AreNotTheSameWhereSomethingIsNotCorrected) {
+    const std::filesystem::path folder = folder_.file("laboratory");
+    std::filesystem::copy(k_affected_tree / "examples" / "laboratory", folder,
+                          std::filesystem::copy_options::recursive);
+    const auto add_record = [&](const std::string& number) {
+        add(number, reports::to_canonical_json(evaluation::evaluate_job(folder / "end_gauge.json",
+                                                                        evaluation::CovarianceFile::none, 1,
+                                                                        k_affected_tree / "templates")
+                                                   .record));
+    };
+    add_record("EX-1");
+    add("EX-9", R"({"results": {"source": "STD-017"}})");
+    std::string job = evaluation::read_file(folder / "end_gauge.json");
+    job.replace(job.find("\"source\": \"CMP-02\""), 18, "\"source\": \"EX-9\"");
+    std::ofstream(folder / "end_gauge.json") << job;
+    add_record("EX-2");
+    const auto calculated = [&](const std::string& standard, const std::string& corrected) {
+        std::vector<AffectedCertificate> affected = find_affected(archive_, {standard, "2026-03-02", ""}, 1);
+        recalculate(
+            affected, archive_,
+            {.standard = standard, .corrected = corrected, .reason = "r", .templates = k_affected_tree / "templates"},
+            1);
+        std::map<std::string, json> told;
+        const json all = json::parse(affected_json(affected, {}));
+        for (const json& one : all["certificates"]) {
+            told[one["number"]] = one;
+        }
+        return told;
+    };
+    const auto registered = [&](const std::string& standard) {
+        return evaluation::read_file(folder / "laboratory" / "standards" / (standard + ".json"));
+    };
+    std::map<std::string, json> told = calculated("STD-017", registered("STD-017"));
+    EXPECT_EQ(told["EX-1"]["outcome"], "same");
+    EXPECT_EQ(told["EX-2"]["outcome"], "cannot_say");
+    EXPECT_EQ(told["EX-2"]["also_through"], "EX-9");
+    EXPECT_NE(told["EX-2"]["cannot_say"].get<std::string>().find("EX-9, which is listed, too"), std::string::npos);
+    told = calculated("CMP-02", registered("CMP-02"));
+    EXPECT_EQ(told["EX-1"]["outcome"], "cannot_say");
+    EXPECT_NE(told["EX-1"]["cannot_say"].get<std::string>().find("end_gauge.json#/inputs/d/components/1/source"),
+              std::string::npos);
+    std::string corrected = registered("CMP-02");
+    corrected.replace(corrected.find("\"U\": 0.02"), 9, "\"U\": 0.05");
+    told = calculated("CMP-02", corrected);
+    EXPECT_EQ(told["EX-1"]["outcome"], "text") << "U in the row of traceability";
+    EXPECT_EQ(told["EX-1"]["not_corrected"].size(), 2U);
+}
+
+/// Names of files of a job are not those of its draft: the record of what it amends itself, a list of changes.
+TEST_F(ArchiveOfStandards, HaveDraftsOfEachFileOnce) {
+    const std::filesystem::path folder = folder_.file("laboratory");
+    std::filesystem::copy(k_affected_tree / "examples" / "laboratory", folder,
+                          std::filesystem::copy_options::recursive);
+    const json data = json::parse(evaluation::read_file(folder / "end_gauge_certificate.json"), nullptr, true, true);
+    const std::string job = evaluation::read_file(folder / "end_gauge.json");
+    const auto add_record = [&](const std::string& number, const std::string& file_of_data, const json& amendment) {
+        json changed = data;
+        changed["number"] = number;
+        if (!amendment.is_null()) {
+            changed["amendment"] = amendment;
+            changed["item"]["serial_number"] = "SN-1002";
+        }
+        std::ofstream(folder / file_of_data) << changed.dump();
+        std::string with_data = job;
+        with_data.replace(with_data.find("end_gauge_certificate.json"), 26, file_of_data);
+        std::ofstream(folder / "end_gauge.json") << with_data;
+        std::string record = reports::to_canonical_json(evaluation::evaluate_job(folder / "end_gauge.json",
+                                                                                 evaluation::CovarianceFile::none, 1,
+                                                                                 k_affected_tree / "templates")
+                                                            .record);
+        add(number, record);
+        return record;
+    };
+    const std::string first = add_record("EX-1", "changes.json", json());
+    std::ofstream(folder / "original_record.json") << first;
+    (void)add_record("EX-2", "data.json",
+                     {{"kind", "amended"},
+                      {"number", "EX-1"},
+                      {"reason", "The serial number was wrong."},
+                      {"changes", {"serial number"}},
+                      {"record", "original_record.json"}});
+    std::filesystem::remove(folder / "original_record.json");
+    (void)add_record("EX-3", "original_record.json", json());
+    std::string corrected = evaluation::read_file(folder / "laboratory" / "standards" / "STD-017.json");
+    corrected.replace(corrected.find("50.000623"), 9, "50.000643");
+    std::vector<AffectedCertificate> affected = find_affected(archive_, {"STD-017", "2026-03-02", ""}, 1);
+    std::size_t drafts = 0;
+    recalculate(
+        affected, archive_,
+        {.standard = "STD-017", .corrected = corrected, .reason = "r", .templates = k_affected_tree / "templates"}, 1,
+        {.write = [&](const std::vector<outputs::OutputFile>& files) {
+            ++drafts;
+            std::set<std::filesystem::path> places;
+            for (const outputs::OutputFile& file : files) {
+                EXPECT_TRUE(places.insert(file.path).second) << file.path;
+                const json read = json::parse(file.bytes, nullptr, false);
+                if (read.is_object() && read.value("schema", "") == "gumcert/archive-amendment-draft/1") {
+                    EXPECT_EQ(file.path.filename(), "changes.json");
+                    EXPECT_EQ(std::distance(file.path.begin(), file.path.end()), 2);
+                }
+                if (read.is_object() && read.contains("amendment")) {
+                    const std::filesystem::path record =
+                        file.path.parent_path() / read["amendment"]["record"].get<std::string>();
+                    const auto of = std::ranges::find(files, record, &outputs::OutputFile::path);
+                    ASSERT_NE(of, files.end());
+                    EXPECT_EQ(json::parse(of->bytes)["certificate"]["data"]["number"], read["amendment"]["number"]);
+                }
+            }
+        }});
+    EXPECT_EQ(drafts, 3U);
+}
+
+/// Where an amendment was withdrawn nothing holds, and the original is amended once more: it has a draft as one that is issued, but
+/// none that takes back what the withdrawn one had corrected, and none beside another one that is under way.
+TEST_F(ArchiveOfStandards, HaveADraftWhereTheirAmendmentWasWithdrawn) {
+    const std::string record = reports::to_canonical_json(
+        evaluation::evaluate_job(k_affected_tree / "examples" / "laboratory" / "end_gauge.json",
+                                 evaluation::CovarianceFile::none, 1, k_affected_tree / "templates")
+            .record);
+    json other = json::parse(record);
+    other.erase("digest");
+    other["certificate"]["data"]["item"]["serial_number"] = "SN-1002";
+    const auto amend = [&](const std::string& original, const std::string& number, const std::string& with,
+                           bool is_issued = true) {
+        Draft amendment = test::sample_draft(number);
+        amendment.record = with;
+        amendment.amends = Draft::Amends{original, "amended", {{"text", "/title", "a", "b"}}};
+        (void)archive_.draft(amendment, by("A. Author"));
+        for (const char* const kind : {"reviewed", "authorised", "issued"}) {
+            if (is_issued) {
+                (void)archive_.advance(number, kind, by("R. Reviewer"));
+            }
+        }
+    };
+    const std::string unreadable = R"({"title": "another standard"})";
+    for (const auto& [number, with] :
+         {std::pair("EX-1", record), std::pair("EX-2", unreadable), std::pair("EX-3", other.dump()),
+          std::pair("EX-4", unreadable), std::pair("EX-5", record)}) {
+        add(number, record);
+        amend(number, number + std::string("/A1"), with);
+        if (std::string_view(number) != "EX-2") {
+            (void)archive_.advance(number + std::string("/A1"), "withdrawn", by("R. Reviewer"));
+        }
+    }
+    add("EX-6", record);
+    amend("EX-5", "EX-5/A2", unreadable, false);
+    amend("EX-6", "EX-6/A1", unreadable, false);
+    json corrected = json::parse(evaluation::read_file(k_affected_tree / "examples" / "laboratory" / "laboratory" /
+                                                       "standards" / "STD-017.json"),
+                                 nullptr, true, true);
+    for (json& one : corrected["calibrations"]) {
+        one["certificate"] = "another";
+    }
+    std::vector<AffectedCertificate> affected = find_affected(archive_, {"STD-017", "2026-03-02", ""}, 1);
+    recalculate(affected, archive_,
+                {.standard = "STD-017",
+                 .corrected = corrected.dump(),
+                 .reason = "r",
+                 .templates = k_affected_tree / "templates"},
+                1, {.write = [](const std::vector<outputs::OutputFile>&) {}});
+    ASSERT_EQ(affected.size(), 6U);
+    EXPECT_EQ(affected[0].certificate.state, "amended-by");
+    EXPECT_EQ(affected[0].draft_folder, "EX-1_A2");
+    EXPECT_EQ(affected[0].no_draft, "");
+    const std::string told = affected_text(affected);
+    for (const auto& [i, reason] :
+         {std::pair(1U, "where what took its place changes, too"), std::pair(2U, "-> \"SN-1002\"; decide what holds"),
+          std::pair(3U, "cannot be read from its record"), std::pair(4U, "EX-5/A2, which amends it, is not issued yet"),
+          std::pair(5U, "EX-6/A1, which amends it, is not issued yet")}) {
+        EXPECT_EQ(affected[i].draft_folder, "");
+        EXPECT_NE(affected[i].no_draft.find(reason), std::string::npos) << affected[i].no_draft;
+        EXPECT_NE(told.find(reason), std::string::npos) << told;
+    }
+    EXPECT_NE(told.find("EX-1/A1, which took its place, was withdrawn: amend it once more"), std::string::npos);
+    EXPECT_NE(told.find("EX-5/A1, which took its place, was withdrawn\n"), std::string::npos);
+    const json all = json::parse(affected_json(affected, {}))["certificates"];
+    EXPECT_EQ(all[0]["withdrawn_amendment"], "EX-1/A1");
+    EXPECT_EQ(all[4]["amendment_under_way"], "EX-5/A2");
+}
+
+/// What a newer version says otherwise whatever the standard is no effect of the correction, and no reason for a draft.
+TEST_F(ArchiveOfStandards, TellNothingThatTheVersionAloneSaysOtherwise) {
+    const std::filesystem::path folder = folder_.file("laboratory");
+    std::filesystem::copy(k_affected_tree / "examples" / "laboratory", folder,
+                          std::filesystem::copy_options::recursive);
+    std::ofstream(folder / "b.json") << R"({"schema": "gumcert/job/1", "kind": "budget", "title": "b",
+        "coverage_probability": 0.9545, "laboratory": "laboratory", "model": ["l = l_s*0.000244 + d"],
+        "inputs": {"l_s": {"standard": "STD-017", "unit": "um", "date": "2026-11-18"},
+                   "d": {"value": 0.11, "u": 0.1, "unit": "um"}}, "outputs": {"l": {"unit": "um"}}})";
+    std::ofstream(folder / "comparison.json") << R"({"schema": "gumcert/job/1", "kind": "comparison", "title": "C",
+        "unit": "um", "assigned_value": {"value": 12.2, "U": 0.1, "k": 2}, "artefact_stability": "no change",
+        "certificate": {"number": "R-1", "laboratory": {"name": "Example Institute"}, "languages": ["en"],
+                        "dates": {"issued": "2026-11-20"}},
+        "participants": [{"id": "A", "budget": "b.json"}, {"id": "B", "value": 12.18, "u": 0.12},
+                         {"id": "C", "value": 12.6, "U": 0.24, "k": 2.5}]})";
+    const auto add_record = [&](const std::string& number, const char* job, const std::vector<const char*>& places) {
+        json record = json::parse(reports::to_canonical_json(
+            evaluation::evaluate_job(folder / job, evaluation::CovarianceFile::none, 1, k_affected_tree / "templates")
+                .record));
+        record.erase("digest");
+        record["software"]["version"] = "0.0.1";
+        for (const char* const place : places) {
+            ASSERT_TRUE(record.contains(json::json_pointer(place))) << place;
+            record[json::json_pointer(place)] = place == places.front() ? "of old" : "7";
+        }
+        add(number, record.dump());
+    };
+    add_record("EX-1", "end_gauge.json",
+               {"/certificate/data/item/serial_number", "/certificate/tables/0/columns/0/values/0/printed_value"});
+    add_record("R-1", "comparison.json", {"/comparison/remarks/0", "/comparison/participants/0/printed/max_abs_En"});
+    const std::string registered = evaluation::read_file(folder / "laboratory" / "standards" / "STD-017.json");
+    struct Told {
+        json certificates;
+        std::map<std::string, json> drafts;  // their lists of changes
+    };
+    const auto told = [&](const std::string& from, const std::string& to) {
+        std::string corrected = registered;
+        for (std::size_t at = corrected.find(from); at != std::string::npos;
+             at = corrected.find(from, at + to.size())) {
+            corrected.replace(at, from.size(), to);
+        }
+        std::vector<AffectedCertificate> affected = find_affected(archive_, {"STD-017", "2026-03-02", ""}, 1);
+        Told all;
+        recalculate(
+            affected, archive_,
+            {.standard = "STD-017", .corrected = corrected, .reason = "r", .templates = k_affected_tree / "templates"},
+            1, {.write = [&](const std::vector<outputs::OutputFile>& files) {
+                for (const outputs::OutputFile& file : files) {
+                    if (file.path.filename() == "changes.json") {
+                        const json read = json::parse(file.bytes);
+                        all.drafts[read["amends"]] = read;
+                    }
+                }
+            }});
+        std::sort(affected.begin(), affected.end(),
+                  [](const auto& a, const auto& b) { return a.certificate.number < b.certificate.number; });
+        all.certificates = json::parse(affected_json(affected, {}))["certificates"];
+        EXPECT_NE(affected_text(affected).find("another version of gumcert made it"), std::string::npos);
+        return all;
+    };
+    const Told same = told("50.000623", "50.000623");
+    ASSERT_EQ(same.certificates.size(), 2U);
+    for (const json& one : same.certificates) {
+        EXPECT_EQ(one["outcome"], "same") << one;
+        EXPECT_EQ(one["shift"], 0.0);
+        EXPECT_EQ(one["changes"], json::array());
+        EXPECT_NE(one["version_in_words"], "");
+    }
+    EXPECT_TRUE(same.drafts.empty());
+    Told changed = told("50.000623", "50.900623");
+    EXPECT_EQ(changed.certificates[0]["outcome"], "verdict");
+    EXPECT_EQ(changed.certificates[1]["outcome"], "printed");
+    for (const char* const number : {"EX-1", "R-1"}) {
+        EXPECT_FALSE(changed.drafts[number]["changes"].empty()) << number;
+        EXPECT_EQ(changed.drafts[number]["changes"].dump().find("of old"), std::string::npos) << number;
+        EXPECT_NE(changed.drafts[number]["changes_of_version"].dump().find("of old"), std::string::npos) << number;
+    }
+    const Told text = told("NMI-2026-0117", "NMI-2026-0118");
+    EXPECT_EQ(text.certificates[0]["outcome"], "text") << "and no digit, which the version alone changes";
+    EXPECT_EQ(text.certificates[0]["changes"].size(), 1U);
 }
 
 /// A result that rests on more than the standard is moved by less of its own U than the standard by its.

@@ -161,7 +161,9 @@ TEST(RecordReferences, AreTakenFromEveryPlace) {
          {{"files",
            {{{"name", "standards/STD-4.json"},
              {"encoding", "utf-8"},
-             {"content", R"({"calibrations": [{"certificate": "NMI-4"}]})"}}}},
+             {"content",
+              "// as files of jobs may have\n"
+              R"({"calibrations": [{"certificate": "NMI-4"}]})"}}}},
           {"document", {{"inputs", {{"x", {{"source", {{"en", "STD-5"}, {"de", "Normal STD-5"}}}}}}}}}}}};
     const std::optional<RecordReferences> found = references_of(record.dump());
     ASSERT_TRUE(found);
@@ -189,6 +191,26 @@ TEST(RecordReferences, TakeNoDayOfIssueForTheFirstDayOfTheWork) {
     EXPECT_EQ(days_of(R"({"performed_to": "2026-05-04", "issued": "2026-05-06"})"), "/2026-05-04");
     EXPECT_EQ(days_of(R"({"performed_from": "2026-05-03", "issued": "2026-05-06"})"), "2026-05-03/2026-05-03");
     EXPECT_EQ(days_of("{}"), "/");
+    const auto of_report = references_of(R"({"comparison": {"issuer": {"number": "CMP-1", "issued": "2026-05-06"}}})");
+    EXPECT_EQ(of_report->used_from + "/" + of_report->used_to, "/2026-05-06") << "the report of a comparison";
+}
+
+/// Numbers that a job takes from the register are corrected with it, those beside a source are not.
+TEST(JobFile, TellsWhatItStatesOfAStandardItself) {
+    const json job = json::parse(R"({
+        "inputs": {
+            "a": {"standard": "STD-1", "source": "STD-1, with its drift"},
+            "b": {"value": 1, "u": 2, "source": "STD-1, certificate 7"},
+            "c": {"components": [{"u": 1, "source": {"en": "drift", "de": "Drift von STD-1"}}, {"source": "STD-12"}]},
+            "d": {"standard": "STD-2", "source": "compared with STD-1"}},
+        "title": "STD-1",
+        "standards": ["STD-1", {"identification": "STD-1", "U": 3}, {"certificate": "C-7"}, {"certificate": "C-77"}],
+        "conditions": [{"sensor": "STD-1"}]})");
+    EXPECT_EQ(stated_by_hand(job, {"STD-1", "C-7"}),
+              (std::vector<std::string>{"/conditions/0/sensor", "/inputs/b/source", "/inputs/c/components/0/source",
+                                        "/inputs/d/source", "/standards/1", "/standards/2"}));
+    EXPECT_TRUE(stated_by_hand(json(), {"STD-1"}).empty());
+    EXPECT_TRUE(stated_by_hand(job, {"STD-3"}).empty());
 }
 
 using SaidTexts = std::set<std::pair<StandardReference::Kind, std::string>>;

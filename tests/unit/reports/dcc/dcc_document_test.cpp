@@ -303,6 +303,18 @@ TEST(DccDocument, MarksADraftWithItsFindings) {
     EXPECT_NE(document.find("no customer"), std::string::npos);
 }
 
+// A document that is printed again says what became of it, as its pages do.
+TEST(DccDocument, SaysThatItIsSuperseded) {
+    EvaluationRecord record = certified_budget();
+    EXPECT_EQ(read_dcc(checked(record), "issued.xml").state, "");
+    record.certificate->superseded_by = "EX-1/A1";
+    const std::string document = checked(record);
+    EXPECT_NE(document.find("SUPERSEDED by EX-1/A1"), std::string::npos);
+    EXPECT_EQ(read_dcc(document, "superseded.xml").state, "superseded document");
+    record.certificate->blocked = true;
+    EXPECT_EQ(read_dcc(checked(record), "draft.xml").state, "draft");
+}
+
 TEST(DccDocument, DefinesUnitsThatAreNotInDSi) {
     EvaluationRecord record = certified_budget();
     record.certificate->tables[0].columns[0].unit = "inch";

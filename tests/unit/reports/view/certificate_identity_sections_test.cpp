@@ -235,18 +235,18 @@ TEST(CertificateIdentity, MarksDraftsAndSpecimens) {
     const json texts = english();
     const Wording words(texts);
     EvaluationRecord record = test::certified_rotary_record();
-    EXPECT_THAT(certificate_marks(words, record), IsEmpty());
+    EXPECT_THAT(document_marks(words, record, ""), IsEmpty());
     EXPECT_EQ(running_texts(words, record).at("header_right"), "Calibration certificate EX-2026-0042");
     record.certificate->data.number = std::string(200, '7');
     EXPECT_THAT(running_texts(words, record).at("header_right").get<std::string>(), HasSubstr(std::string(200, '7')))
         << "the number is never cut";
     record = test::drafted(record);
-    EXPECT_EQ(certificate_marks(words, record).at(0).at("text"), "DRAFT — not issued");
+    EXPECT_EQ(document_marks(words, record, "").at(0).at("text"), "DRAFT — not issued");
     EXPECT_THAT(running_texts(words, record).at("header_right").get<std::string>(), HasSubstr("DRAFT"));
     record.certificate->data.status = "specimen";
-    EXPECT_EQ(certificate_marks(words, record).size(), 2U);
+    EXPECT_EQ(document_marks(words, record, "").size(), 2U);
     record.certificate.reset();
-    EXPECT_THAT(texts_of(certificate_marks(words, record)), HasSubstr("SPECIMEN"));
+    EXPECT_THAT(texts_of(document_marks(words, record, "")), HasSubstr("SPECIMEN"));
     EXPECT_THAT(running_texts(words, record).at("header_right").get<std::string>(), HasSubstr("SPECIMEN"));
 }
 

@@ -1,5 +1,6 @@
 #include "gum/quantity/diagnostic.h"
 #include "reports/forms/render.h"
+#include "reports/record/record_value.h"
 #include "reports/view/certificate_view.h"
 #include "tests/support/hostile_strings.h"
 #include "tests/support/sample_comparison_record.h"
@@ -369,6 +370,24 @@ TEST(ComparisonReport, SaysWhoIssuedItAndWhen) {
     record.comparison->issuer.reset();
     EXPECT_EQ(view_of_comparison(record)["header_right"], "Comparison report");
     EXPECT_EQ(view_of_comparison(record)["created"]["year"], "1970");
+}
+
+TEST(ComparisonReport, SaysOnEveryPageThatItIsSuperseded) {
+    EvaluationRecord record = one_item(6);
+    record.comparison->issuer = ComparisonIssuer{certificate::LocalisedText("Institute"), "KC-14", "2026-11-21"};
+    const json issued = view_of_comparison(record);
+    EXPECT_THAT(issued["mark"], testing::IsEmpty());
+    record.comparison->issuer->superseded_by = "KC-14/A1";
+    json superseded = view_of_comparison(record);
+    EXPECT_EQ(superseded["header_right"], "Comparison report KC-14 · SUPERSEDED by KC-14/A1");
+    ASSERT_EQ(superseded["mark"].size(), 1U);
+    EXPECT_EQ(superseded["mark"][0]["text"], "SUPERSEDED by KC-14/A1");
+    EXPECT_EQ(superseded["mark"][0]["reason"],
+              "A later report amends or replaces this one. It must no longer be used.");
+    superseded["mark"] = issued["mark"];
+    superseded["header_right"] = issued["header_right"];
+    EXPECT_EQ(superseded, issued) << "nothing else is another";
+    EXPECT_EQ(to_json_value(record).dump().find("KC-14/A1"), std::string::npos) << "in no record";
 }
 
 TEST(ComparisonReport, ANameOfABudgetDoesNotTellWhoseItIs) {
