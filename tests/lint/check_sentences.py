@@ -61,7 +61,7 @@ SOURCES = (
 )
 
 # Readers whose warnings documents in all languages print. Plans and simulations are in English.
-WARNING_READERS = ("jobs/budget/*.cpp", "jobs/comparison/*.cpp", "jobs/laboratory/*.cpp")
+WARNING_READERS = ("jobs/budget/*.cpp", "jobs/comparison/*.cpp", "jobs/laboratory/*.cpp", "jobs/rotary_table/*.cpp")
 
 # Names that a language has for a thing beside the one that is used, and this one.
 OTHER_NAMES = {
