@@ -42,6 +42,7 @@ SOURCES = (
     "reports/record/make/comparison/laboratory_notes.cpp",
     "reports/record/make/comparison/method_remarks.cpp",
     "reports/record/make/rotary_table/location_error_record.cpp",
+    "reports/record/make/rotary_table/reference_comparison.cpp",
     "reports/record/make/rotary_table/rotary_findings.cpp",
     "reports/record/make/rotary_table/rotary_monte_carlo_record.cpp",
     "reports/record/make/rotary_table/table_parameter_record.cpp",
