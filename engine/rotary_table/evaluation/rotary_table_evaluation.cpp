@@ -15,6 +15,7 @@
 #include "engine/degrees_text.h"
 #include "engine/median.h"
 #include "engine/rotary_table/anglewise_map.h"
+#include "engine/rotary_table/evaluation/repeatability_check.h"
 #include "engine/rotary_table/evaluation/rival_tables.h"
 #include "engine/rotary_table/geometry_check.h"
 #include "engine/rotary_table/group_notes.h"
@@ -721,6 +722,72 @@ void check_fixture(RotaryTableSolution& solution, const JointAdjustment& adjustm
     }
 }
 
+/// A repeatability that is given, or said to be none, and that the distances refute; and what they give in its place.
+struct RefutedWeights {
+    std::vector<RefutedRepeatability> refuted;
+    JointAdjustment adjustment;  ///< at the estimated weights
+    StochasticModel stochastic;
+    Iteration iteration;
+
+    [[nodiscard]] bool larger() const { return std::ranges::any_of(refuted, &RefutedRepeatability::larger); }
+};
+
+double variance_of(const StochasticModel& stochastic, ComponentRow row) {
+    return row == table_linear  ? stochastic.variance_linear
+           : row == table_axial ? stochastic.variance_axial
+                                : stochastic.variance_tilt;
+}
+
+/// None where the distances do not refute it, or give nothing in its place.
+std::optional<RefutedWeights> check_repeatability(const JointAdjustment& adjustment, const Iteration& main,
+                                                  const StochasticModel& stochastic, const EvaluationOptions& options,
+                                                  const Progress& progress) {
+    const TableRepeatability& given = adjustment.measurement().table_repeatability;
+    if (given.mode == RepeatabilityMode::estimate || !options.chi_square_upper_tail) {
+        return std::nullopt;
+    }
+    EstimatedComponents estimated = main.estimated();
+    estimated.table = true;
+    // One step from the given weights decides: sound measurements pay no more.
+    std::vector<RefutedRepeatability> refuted = refuted_repeatability(
+        estimate_variance_components(adjustment, *main.normal, main.covariance, stochastic, estimated), given,
+        options.chi_square_upper_tail);
+    if (refuted.empty()) {
+        return std::nullopt;
+    }
+    RefutedWeights result{std::move(refuted), adjustment, stochastic, Iteration(estimated, progress)};
+    SolverOptions solver = options.solver;
+    solver.step_tolerance = std::max(solver.step_tolerance, k_step_of_a_check);
+    try {
+        result.iteration.settle(result.adjustment, result.stochastic, options.max_component_iterations,
+                                std::max(options.component_tolerance, 1e-4), solver);
+    } catch (const gum::NoResultError&) {
+        return std::nullopt;  // a check, which the result does not need
+    }
+    return result;
+}
+
+/// Whether a suspicious group makes the visits scatter, and not the table: without it what is given holds.
+bool is_explained_by(const GroupTests& groups, const RefutedWeights& check, const EvaluationOptions& options) {
+    constexpr double k_held = 1.25 * 1.25;  // of a variance
+    if (groups.tests.empty() || !groups.tests.front().suspicious) {
+        return false;
+    }
+    const GroupTest& group = groups.tests.front();
+    if (group.errors.empty()) {
+        return true;  // what its distances are off by is not known
+    }
+    try {
+        const StochasticModel without =
+            variances_without(group, check.adjustment, check.iteration.estimated(), check.stochastic, options);
+        return std::ranges::all_of(check.refuted, [&](const RefutedRepeatability& of) {
+            return !of.larger || variance_of(without, of.row) <= k_held * of.given * of.given;
+        });
+    } catch (const gum::NoResultError&) {
+        return true;
+    }
+}
+
 void fill_variance_factor(RotaryTableSolution& solution) {
     if (solution.degrees_of_freedom > 0) {
         solution.variance_factor = solution.chi_square / static_cast<double>(solution.degrees_of_freedom);
@@ -1243,11 +1310,37 @@ Adjusted adjust_and_test(const RotaryTableMeasurement& measurement, StartSearch&
                                          options.chi_square_upper_tail);
     }
 
+    std::optional<RefutedWeights> refuted = check_repeatability(adjustment, iteration, stochastic, options, progress);
     if (options.chi_square_upper_tail) {
         iteration.report("groups of distances");
         const GroupTestOptions group_options{.chi_square_upper_tail = options.chi_square_upper_tail};
-        if (is_concentrated(measurement, active) && active != but_gross) {
-            solution.groups = groups_with_all(adjustment, but_gross, estimated, stochastic, options, group_options);
+        const auto groups_at = [&](const JointAdjustment& at, const Iteration& of, const StochasticModel& weights) {
+            std::optional<GroupTests> groups;
+            if (is_concentrated(measurement, active) && active != but_gross) {
+                groups = groups_with_all(at, but_gross, of.estimated(), weights, options, group_options);
+            }
+            if (!groups) {
+                groups = groups_of(at, *of.normal, of.covariance, of.estimated(), weights, options, group_options);
+            }
+            return groups;
+        };
+        // A repeatability that is given too small makes groups of distances suspicious, and the reversal seem to depend on
+        // the angle: both are judged at what the distances give. What is suspicious then makes the visits scatter, perhaps.
+        if (refuted && refuted->larger()) {
+            std::optional<GroupTests> as_given = groups_at(adjustment, iteration, stochastic);
+            // A change that explains the scatter is hidden by variances that hold it.
+            const bool is_change = !as_given->tests.empty() && !as_given->tests.front().errors.empty();
+            if (!(is_change && is_explained_by(*as_given, *refuted, options))) {
+                solution.groups = groups_at(refuted->adjustment, refuted->iteration, refuted->stochastic);
+            }
+            if (!solution.groups || is_explained_by(*solution.groups, *refuted, options)) {
+                solution.groups = std::move(as_given);
+                refuted.reset();
+            } else if (adjustment.reversal_by_angle() && options.fisher_upper_tail) {
+                solution.reversal_tests =
+                    test_reversals(refuted->adjustment, *refuted->iteration.normal, refuted->iteration.covariance,
+                                   refuted->iteration.step.components, options.fisher_upper_tail);
+            }
         }
         if (!solution.groups) {
             solution.groups =
@@ -1296,6 +1389,11 @@ Adjusted adjust_and_test(const RotaryTableMeasurement& measurement, StartSearch&
              "checked",
              "the redundancy of its coordinates must be at least 2 and its estimate greater than 0",
              "measure more reflectors, or rely on the uncertainty budget of the CMM", gum::Severity::note});
+    }
+    if (refuted) {
+        for (const RefutedRepeatability& of : refuted->refuted) {
+            solution.notes.push_back(repeatability_note(of, std::sqrt(variance_of(refuted->stochastic, of.row))));
+        }
     }
     note_outliers(solution, measurement, settled);
     note_implausible_angles(solution, measurement);
@@ -1357,6 +1455,13 @@ RotaryTableSolution adjust_with_reversal(const RotaryTableMeasurement& measureme
         solution.notes.push_back(*refuted);
     }
     if (!adopted) {
+        // A reversal of all angles that the distances refute makes the visits scatter, and not the table.
+        const auto is_of_repeatability = [](const gum::Diagnostic& note) {
+            return note.code == k_repeatability_too_small;
+        };
+        if (refuted && std::ranges::none_of(each.notes, is_of_repeatability)) {
+            std::erase_if(solution.notes, is_of_repeatability);
+        }
         solution.reversal_tests = std::move(each.reversal_tests);
     }
     return std::move(solution);
