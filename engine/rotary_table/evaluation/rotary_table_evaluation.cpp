@@ -17,6 +17,7 @@
 #include "engine/rotary_table/anglewise_map.h"
 #include "engine/rotary_table/evaluation/repeatability_check.h"
 #include "engine/rotary_table/evaluation/rival_tables.h"
+#include "engine/rotary_table/evaluation/scaled_lengths.h"
 #include "engine/rotary_table/geometry_check.h"
 #include "engine/rotary_table/group_notes.h"
 #include "engine/rotary_table/start/start_search.h"
@@ -99,8 +100,9 @@ std::string stations_in_one_sense(const RotaryTableMeasurement& measurement) {
 /// is left that could object, and what remains agrees with itself whichever distances are the wrong ones. A repeatability of the
 /// table that is estimated takes up what a false choice leaves: then it is the redundancy of the length noise that could object.
 /// \param length_redundancy  [1]; 0: not known
+/// \param held_noise         u of a length where it is as stated, [m]; 0: estimated
 void require_rest_that_can_object(std::size_t left_out, Eigen::Index degrees_of_freedom, double length_redundancy,
-                                  std::size_t lengths) {
+                                  std::size_t lengths, double held_noise) {
     constexpr std::size_t k_several = 2;  // one stands out by itself
     constexpr double k_least_of_each = 2.0;
     const bool is_of_few = static_cast<Eigen::Index>(left_out) > degrees_of_freedom;
@@ -112,16 +114,21 @@ void require_rest_that_can_object(std::size_t left_out, Eigen::Index degrees_of_
     throw gum::NoResultError(gum::Diagnostic{
         "GC-ADJUST-0017", "outlying distances",
         std::to_string(left_out) + " of " + std::to_string(lengths) + " distances left out, with " +
-            (is_of_few
-                 ? text::degrees_of_freedom(std::to_string(degrees_of_freedom)) + " that remain" +
-                       (degrees_of_freedom == 1 ? "s" : "")
-                 : "a redundancy of " + text::significant(length_redundancy, 2) + " that remains to the length noise"),
+            (is_of_few ? text::degrees_of_freedom(std::to_string(degrees_of_freedom)) + " that remain" +
+                             (degrees_of_freedom == 1 ? "s" : "")
+                       : "a redundancy of " +
+                             (length_redundancy < 99.5 ? text::significant(length_redundancy, 2)
+                                                       : text::fixed(length_redundancy, 0)) +
+                             " that remains to the length noise"),
         is_of_few ? "at least as many degrees of freedom as distances that are left out must remain: with fewer, "
                     "another choice of distances agrees as well"
                   : "a redundancy of the length noise of two must remain for each of several distances that are left "
                     "out: with less, the repeatability of the table makes up for another choice of them",
         "measure more stations, reflectors or passes, or look for the cause of the deviations and correct the "
-        "distances",
+        "distances" +
+            (held_noise > 0.0 ? "; where there is none, see whether the stated standard uncertainty of a length, " +
+                                    micrometres(held_noise) + ", is too small"
+                              : std::string()),
         gum::Severity::error});
 }
 
@@ -1271,10 +1278,11 @@ Adjusted adjust_and_test(const RotaryTableMeasurement& measurement, StartSearch&
     solution.observations = normal.observation_count();
     solution.parameters = normal.parameter_count();
     solution.degrees_of_freedom = solution.observations - solution.parameters;
-    require_rest_that_can_object(static_cast<std::size_t>(std::ranges::count_if(
-                                     solution.reliability, [](const DistanceReliability& row) { return row.removed; })),
-                                 solution.degrees_of_freedom, iteration.step.length_redundancy,
-                                 measurement.lengths.size());
+    require_rest_that_can_object(
+        static_cast<std::size_t>(
+            std::ranges::count_if(solution.reliability, [](const DistanceReliability& row) { return row.removed; })),
+        solution.degrees_of_freedom, iteration.step.length_redundancy, measurement.lengths.size(),
+        iteration.step.components[length_noise].estimated ? 0.0 : iteration.step.components[length_noise].value);
     solution.iterations = iteration.iterations;
     solution.chi_square = normal.chi_square();
     solution.condition_number = normal.condition_number();
@@ -1343,8 +1351,7 @@ Adjusted adjust_and_test(const RotaryTableMeasurement& measurement, StartSearch&
             }
         }
         if (!solution.groups) {
-            solution.groups =
-                groups_of(adjustment, normal, covariance, iteration.estimated(), stochastic, options, group_options);
+            solution.groups = groups_at(adjustment, iteration, stochastic);
         }
     }
 
@@ -1428,6 +1435,18 @@ Adjusted adjust_and_test(const RotaryTableMeasurement& measurement, StartSearch&
     return {std::move(solution), may_depend};
 }
 
+/// Whether the noise that is left is many times what is stated, and no scale of a station or of the fixture is told in its
+/// place.
+bool is_hardly_noise(const RotaryTableSolution& solution) {
+    constexpr double k_times = 4.0;
+    const VarianceComponent& noise = solution.components[length_noise];
+    return noise.estimated && noise.stated && noise.value > k_times * *noise.stated && solution.groups &&
+           std::ranges::none_of(solution.groups->tests, [](const GroupTest& test) {
+               return test.suspicious &&
+                      (test.kind == GroupKind::fixture_scale || test.kind == GroupKind::station_scale);
+           });
+}
+
 /// The reversal of all angles, or that of each where the measurement or the distances ask for it.
 RotaryTableSolution adjust_with_reversal(const RotaryTableMeasurement& measurement, StartSearch& start_search,
                                          const EvaluationOptions& options, const Progress& progress) {
@@ -1476,8 +1495,27 @@ RotaryTableSolution evaluate_jointly(const RotaryTableMeasurement& measurement, 
         progress("start values");
     }
     StartSearch start_search(measurement);
+    const auto refuse_scaled = [&] {
+        std::vector<gum::Diagnostic> causes;
+        try {
+            std::vector<bool> active(measurement.lengths.size(), true);
+            for (const std::size_t i : start_search.gross_errors()) {
+                active[i] = false;
+            }
+            causes = scaled_lengths(measurement, start_search.places(active), active, options.solver, options.workers);
+        } catch (const gum::NoResultError&) {
+            return;  // that is what is refused already
+        }
+        if (!causes.empty()) {
+            throw gum::NoResultError(std::move(causes));
+        }
+    };
     try {
-        return adjust_with_reversal(measurement, start_search, options, progress);
+        RotaryTableSolution solution = adjust_with_reversal(measurement, start_search, options, progress);
+        if (is_hardly_noise(solution)) {
+            refuse_scaled();
+        }
+        return solution;
     } catch (const gum::NoResultError& error) {
         // Wrong labels and an interrupted beam look like a station whose place is open, like one that fits no table, like
         // an adjustment that goes astray, like a table that nobody has, or like many outlying distances.
@@ -1487,6 +1525,11 @@ RotaryTableSolution evaluate_jointly(const RotaryTableMeasurement& measurement, 
                        problem.code == "GC-RANK-0001" || problem.code == "GC-VARIANCE-0008";
             })) {
             start_search.refuse_wrong_labels();
+            if (std::ranges::any_of(error.diagnostics(), [](const gum::Diagnostic& problem) {
+                    return problem.code == "GC-ADJUST-0005" || problem.code == "GC-ADJUST-0017";
+                })) {
+                refuse_scaled();
+            }
             start_search.refuse_interrupted_beams();
             // Neither what is open nor how far an adjustment came says anything of distances that fit no place.
             start_search.refuse_no_rigid_table();
