@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <unordered_map>
 #include <utility>
 
@@ -136,7 +137,7 @@ void read_environment(const RotaryTableReading& reading, JobFiles::File&& file, 
     if (const double least = count > 0 ? off.cwiseAbs().minCoeff() : 0.0; least > k_far) {
         file.problems->warn(
             k_warn_far_temperatures, table->where(table->cell(0, temperature)),
-            "every temperature of the fixture is " + text::significant(least, 2) + " K" +
+            "every temperature of the fixture is " + text::shortest_plain(std::floor(least)) + " K" +
                 " and more from the reference temperature of " + text::shortest_plain(job.reference_temperature_degC) +
                 " °C",
             "what the expansion of the fixture is not known to is multiplied by this difference",

@@ -1526,7 +1526,10 @@ TEST(RotaryTableJob, WarnsOfTemperaturesThatAreAllFarFromTheReference) {
         EXPECT_EQ(warnings[0].code, k_warn_far_temperatures.code);
         EXPECT_THAT(gum::message(warnings[0]), HasSubstr("68 °F are 20 °C"));
     }
+    // The least distance, rounded towards the reference: no temperature is nearer than is said.
     EXPECT_THAT(gum::message(warned("", 68.5)[0]), HasSubstr("is 48 K and more"));
+    EXPECT_THAT(gum::message(warned("", 40.6)[0]), HasSubstr("is 20 K and more"));
+    EXPECT_THAT(gum::message(warned("", -0.6)[0]), HasSubstr("is 20 K and more"));
 }
 
 TEST(RotaryTableJob, WarnsOfKeysThatAreNotUsed) {
