@@ -197,10 +197,32 @@ void add_published(const ReferenceMethod& reference, reports::Comparison& record
     }
 }
 
+/// What all readings of a direction may have wrong: right is factor · reading + constant.
+struct ReadingFault {
+    double factor = 1.0, constant = 0.0;  ///< the constant in µm
+};
+
+/// Whether the readings of a direction are judged to agree where this is put right: what is told of them is what this
+/// comparison says of readings that were right.
+bool agree_without(const ReadingFault& fault, const std::string& direction, gum::MethodComparison comparison) {
+    for (gum::ComparedPoint& point : comparison.points) {
+        if (point.direction == direction) {
+            point.reference_value = fault.factor * point.reference_value + fault.constant;
+        }
+    }
+    for (const gum::MethodSummary& summary : gum::compare_methods(comparison).summaries) {
+        if (summary.direction == direction) {
+            return std::min(summary.verdict, summary.verdict_audited.value_or(summary.verdict)) >
+                   gum::AgreementVerdict::correlation_unknown;
+        }
+    }
+    return false;
+}
+
 /// What the readings of a direction that disagree may have wrong as a whole: their sign, their unit, where they count from.
-/// Told where that leaves less than half of what the uncertainties allow, and a third of the differences: of few readings,
-/// or small displacements, nothing is.
-void add_hints_at_readings(reports::Comparison& record) {
+/// Told where they agree without it, and where that leaves less than half of what the uncertainties allow, and a third of
+/// the differences: of few readings, or small displacements, nothing is.
+void add_hints_at_readings(const gum::MethodComparison& comparison, reports::Comparison& record) {
     constexpr std::size_t k_fewest = 4;
     constexpr double k_of_expanded = 0.5;
     constexpr double k_of_differences = 1.0 / 3.0;
@@ -227,20 +249,21 @@ void add_hints_at_readings(reports::Comparison& record) {
         }
         const double limit = std::min(k_of_expanded * root_mean_square([](const auto& p) { return *p.U_D.number; }),
                                       k_of_differences * root_mean_square([](const auto& p) { return p.D.number; }));
-        const auto leaves_little = [&](double factor, double constant) {
-            return root_mean_square([&](const auto& p) {
-                       return p.D.number + (1.0 - factor) * p.reference_value.number - constant;
-                   }) < limit;
+        const auto explains = [&](const ReadingFault& fault) {
+            const double left = root_mean_square([&](const auto& p) {
+                return p.D.number + (1.0 - fault.factor) * p.reference_value.number - fault.constant;
+            });
+            return left < limit && agree_without(fault, summary.direction, comparison);
         };
-        if (leaves_little(-1.0, 0.0)) {
+        if (explains({.factor = -1.0})) {
             record.remarks.push_back("In direction " + summary.direction +
                                      " the readings agree when they have the other sign: see in which sense the "
                                      "indicator counts.");
-        } else if (leaves_little(1000.0, 0.0)) {
+        } else if (explains({.factor = 1000.0})) {
             record.remarks.push_back("In direction " + summary.direction +
                                      " the readings agree when they are multiplied by 1000: see whether they are in "
                                      "millimetres.");
-        } else if (leaves_little(1.0, mean)) {
+        } else if (explains({.constant = mean})) {
             record.remarks.push_back("In direction " + summary.direction +
                                      " the readings agree but for one constant, " +
                                      text::significant(std::abs(mean), 3) +
@@ -291,7 +314,7 @@ reports::Comparison reference_comparison(const RotaryTableJob& job, const gum::Q
     add_method_comparison(comparison, "um", record);
     record.method_budget = budget_of_displacement(displacement.budget, points, record);
     add_published(reference, record);
-    add_hints_at_readings(record);
+    add_hints_at_readings(comparison, record);
     return record;
 }
 

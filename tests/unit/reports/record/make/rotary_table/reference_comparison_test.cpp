@@ -141,12 +141,13 @@ TEST(ReferenceComparison, NamesWhatAllReadingsHaveWrong) {
     for (Eigen::Index k = 0; k < 8; ++k) {
         moved.budget.value(3 * k) = 5.0 * std::cos(static_cast<double>(k)) * k_um;
     }
-    const auto remarks_of = [&](double factor, double constant) {
+    /// \param beside  what single readings have wrong beside it, by the number of the reading
+    const auto remarks_of = [&](double factor, double constant, const std::vector<double>& beside = {}) {
         Files files = campaign({});
-        for (int k = 0; k < 8; ++k) {
+        for (std::size_t k = 0; k < 8; ++k) {
+            const double reading = 5.0 * std::cos(static_cast<double>(k)) * factor + constant;
             files["dial_indicator.csv"] += "x," + std::to_string(45 * k) + ",1," +
-                                           std::to_string(5.0 * std::cos(static_cast<double>(k)) * factor + constant) +
-                                           "\n";
+                                           std::to_string(reading + (k < beside.size() ? beside[k] : 0.0)) + "\n";
         }
         return joined(reference_comparison(read(files), moved).remarks);
     };
@@ -156,6 +157,15 @@ TEST(ReferenceComparison, NamesWhatAllReadingsHaveWrong) {
                 HasSubstr("In direction x the readings agree when they are multiplied by 1000"));
     EXPECT_THAT(remarks_of(1.0, -12.0), HasSubstr("In direction x the readings agree but for one constant, 12 µm"));
     EXPECT_THAT(remarks_of(-0.5, 3.0), Not(HasSubstr("the readings agree")));
+    // Readings that disagree by themselves do so with the other sign, or but for a constant.
+    const std::vector<double> scatter{0.1, -0.1, 0.0, 0.1, -0.1, 0.1, 0.0, -0.1};
+    const std::vector<double> one_off{0.0, 0.0, 1.0};
+    const std::vector<double> alternating{0.35, -0.35, 0.35, -0.35, 0.35, -0.35, 0.35, -0.35};
+    for (const auto& [factor, constant] : {std::pair(-1.0, 0.0), std::pair(1.0, -12.0)}) {
+        EXPECT_THAT(remarks_of(factor, constant, scatter), HasSubstr("the readings agree"));
+        EXPECT_THAT(remarks_of(factor, constant, one_off), Not(HasSubstr("the readings agree")));
+        EXPECT_THAT(remarks_of(factor, constant, alternating), Not(HasSubstr("the readings agree")));
+    }
 }
 
 TEST(ReferenceComparison, TakesDirectionsAsIndependentOfEachOther) {
