@@ -191,6 +191,7 @@ inline constexpr InputCode k_warn_rounded_lengths{"GC-WARN-0026",
 inline constexpr InputCode k_warn_rounded_alike{"GC-WARN-0027", "repeated lengths that are rounded alike"};
 inline constexpr InputCode k_warn_unlikely_uncertainty{"GC-WARN-0028",
                                                        "an uncertainty that looks like one in another unit"};
+inline constexpr InputCode k_warn_far_temperatures{"GC-WARN-0029", "temperatures far from that of the reference"};
 inline constexpr InputCode k_warn_unusual_coverage_factor{"GC-WARN-0021",
                                                           "a coverage factor that is perhaps a coverage probability"};
 
@@ -338,6 +339,7 @@ inline constexpr std::array k_input_codes{k_file_too_large,
                                           k_warn_point_not_shown,
                                           k_warn_rounded_lengths,
                                           k_warn_rounded_alike,
-                                          k_warn_unlikely_uncertainty};
+                                          k_warn_unlikely_uncertainty,
+                                          k_warn_far_temperatures};
 
 }  // namespace gumcert::jobs

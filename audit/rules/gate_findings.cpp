@@ -94,6 +94,7 @@ constexpr std::array k_gate_findings{
     GateFinding{"G04", "B06"},
     GateFinding{"G05", "B06"},
     GateFinding{"G06", "B06"},
+    GateFinding{"G07", "B06"},
     GateFinding{"C01", "B06"},
     GateFinding{"C02", "B06"},
     GateFinding{"C03", "B06"},

@@ -1220,18 +1220,26 @@ private:
     }
 
     /// Autocorrelation of lag 1 of the deviations of successive visits, over all sequences.
+    ///
+    /// What the stations say of an angle is not independent: its error motions have six unknowns, and of few stations they leave
+    /// little more than one number, which all stations show. So the products of all stations at two successive angles are one
+    /// observation where they scatter more than independent ones.
     void search_succession() {
         double products = 0.0;
         double squares = 0.0;
         std::size_t pairs = 0;
+        std::map<std::pair<std::size_t, std::size_t>, double> of_angles;  // products of two successive angles
         for (const auto& sequence : sequences_) {
             // In terms of their standard deviations: visits of different weight count alike.
             for (std::size_t k = 0; k < sequence.size(); ++k) {
                 const double deviate = tests_[sequence[k]].deviate;
                 squares += deviate * deviate;
                 if (k > 0) {
-                    products += tests_[sequence[k - 1]].deviate * deviate;
+                    const double product = tests_[sequence[k - 1]].deviate * deviate;
+                    products += product;
                     ++pairs;
+                    of_angles[std::minmax(adjustment_.visits()[sequence[k - 1]].angle,
+                                          adjustment_.visits()[sequence[k]].angle)] += product;
                 }
             }
         }
@@ -1239,9 +1247,15 @@ private:
             return;
         }
         const double r = products / squares;
+        const double mean = products / static_cast<double>(of_angles.size());
+        double scatter = 0.0;
+        for (const auto& [angles, product] : of_angles) {
+            scatter += (product - mean) * (product - mean);
+        }
+        const double spread = std::max(squares / std::sqrt(static_cast<double>(pairs)), std::sqrt(scatter));
         // One side only: that visits deviate alike is drift, that they alternate is nothing that a laboratory could
         // look for.
-        const double deviate = std::max(0.0, r * std::sqrt(static_cast<double>(pairs)));
+        const double deviate = std::max(0.0, products / spread);
         GroupTest test = judged(GroupKind::succession, deviate * deviate, 1, 1);
         test.estimate = r;
         result_.tests.push_back(test);

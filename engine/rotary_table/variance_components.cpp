@@ -402,6 +402,9 @@ VarianceComponentStep estimate_variance_components(const JointAdjustment& adjust
     const std::array<bool, k_components> wanted{estimated.length && any_shared_visit, estimated.table, estimated.table,
                                                 estimated.table, estimated.fixture};
     step.expected_degrees_of_freedom.assign(k_components, std::numeric_limits<double>::infinity());
+    step.expected_spread.assign(k_components, 0.0);
+    step.form_degrees_of_freedom.assign(k_components, 0.0);
+    const std::array<double, k_components> units{1.0, k_linear_scale, k_angular_scale, k_angular_scale, 1.0};
     std::vector<Eigen::Index> asked;
     for (std::size_t k = 0; k < k_components; ++k) {
         if (wanted[k]) {
@@ -413,7 +416,10 @@ VarianceComponentStep estimate_variance_components(const JointAdjustment& adjust
         const Eigen::MatrixXd all = Eigen::MatrixXd(fisher(asked, asked)).ldlt().solve(Eigen::MatrixXd::Identity(n, n));
         for (Eigen::Index i = 0; i < n; ++i) {
             const Eigen::Index at = asked[static_cast<std::size_t>(i)];
-            step.expected_degrees_of_freedom[static_cast<std::size_t>(at)] = theta[at] * theta[at] / all(i, i);
+            const auto row = static_cast<std::size_t>(at);
+            step.expected_degrees_of_freedom[row] = theta[at] * theta[at] / all(i, i);
+            step.expected_spread[row] = all(i, i) > 0.0 ? units[row] * std::sqrt(2.0 * all(i, i)) : 0.0;
+            step.form_degrees_of_freedom[row] = fisher(at, at) > 0.0 ? trace[at] * trace[at] / fisher(at, at) : 0.0;
         }
     }
     // A component that stands at its bound and whose likelihood falls from there stays at it.

@@ -62,6 +62,11 @@ struct VarianceComponentStep {
     /// θ²/(S⁻¹)_kk of what is estimated, at the weights taken: the degrees of freedom that its estimate will have if these
     /// weights are true; infinite for what is held. One a ComponentRow.
     std::vector<double> expected_degrees_of_freedom;
+    /// Standard deviation of the estimated variances if these weights are true, [m²] or [rad²]; the fixture's factor [1].
+    /// Of what is estimated, else 0. One a ComponentRow.
+    std::vector<double> expected_spread;
+    /// (tr R V_k)²/tr(R V_k R V_k): of the quadratic form that a component is estimated from, whatever its size.
+    std::vector<double> form_degrees_of_freedom;
 };
 
 /// One step of restricted maximum likelihood (Fisher scoring; the same fixed point as the iterated estimates of Helmert

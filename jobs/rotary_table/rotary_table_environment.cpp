@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <unordered_map>
 #include <utility>
 
@@ -129,6 +130,18 @@ void read_environment(const RotaryTableReading& reading, JobFiles::File&& file, 
             "the largest standard uncertainty of a temperature is " + text::significant(largest, 2) + " K",
             "the temperature of a fixture is known to better than " + text::shortest_plain(k_unlikely) + " K",
             "check the unit: the column u_temperature_K is in kelvin");
+    }
+    // In another unit all of them are far off; one alone may be mistyped, which the distances of its station tell.
+    constexpr double k_far = 20.0;  // [K]
+    const Eigen::VectorXd& off = job.measurement.temperature_difference;
+    if (const double least = count > 0 ? off.cwiseAbs().minCoeff() : 0.0; least > k_far) {
+        file.problems->warn(
+            k_warn_far_temperatures, table->where(table->cell(0, temperature)),
+            "every temperature of the fixture is " + text::shortest_plain(std::floor(least)) + " K" +
+                " and more from the reference temperature of " + text::shortest_plain(job.reference_temperature_degC) +
+                " °C",
+            "what the expansion of the fixture is not known to is multiplied by this difference",
+            "check that temperatures are in °C, and reference_temperature_degC as well: 68 °F are 20 °C");
     }
     // A row that could not be read may be the one that seems to be missing.
     bool all_rows_read = table->is_complete();

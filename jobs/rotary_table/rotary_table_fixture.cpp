@@ -252,15 +252,30 @@ void read_fixture_covariance(const RotaryTableReading& reading, const FixtureNam
     }
     const Eigen::MatrixXd si = symmetric * (k_micrometre * k_micrometre);
     const Eigen::VectorXd from_columns = job.measurement.fixture_covariance.diagonal();
+    // One cause, as a rule: columns of another measurement of the fixture. The coordinate that differs most is named.
+    Eigen::Index differing = 0;
+    Eigen::Index most = 0;
+    double largest_ratio = 0.0;  // in either sense
     for (Eigen::Index i = 0; i < si.rows(); ++i) {
         const double ratio = std::sqrt(si(i, i) / from_columns(i));
         if (std::abs(ratio - 1.0) > 0.01) {
-            file.problems->warn(k_warn_covariance_differs, where_in_row(name, i),
-                                "u from the covariance is " + text::shortest_plain(std::sqrt(symmetric(i, i))) +
-                                    " µm, from the column of the fixture file " +
-                                    text::shortest_plain(std::sqrt(from_columns(i)) / k_micrometre) + " µm",
-                                "the covariance is used", "correct whichever is wrong");
+            ++differing;
+            if (const double either = std::max(ratio, 1.0 / ratio); either > largest_ratio) {
+                largest_ratio = either;
+                most = i;
+            }
         }
+    }
+    if (differing > 0) {
+        const std::string from_matrix = text::shortest_plain(std::sqrt(symmetric(most, most))) + " µm";
+        const std::string from_column = text::shortest_plain(std::sqrt(from_columns(most)) / k_micrometre) + " µm";
+        file.problems->warn(k_warn_covariance_differs, where_in_row(name, most),
+                            "u from the covariance is " + from_matrix + ", from the column of the fixture file " +
+                                from_column +
+                                (differing > 1 ? "; " + std::to_string(differing) + " of " + std::to_string(si.rows()) +
+                                                     " coordinates differ, this one most"
+                                               : std::string()),
+                            "the covariance is used", "correct whichever is wrong");
     }
     job.measurement.fixture_covariance = si;
 }

@@ -297,8 +297,8 @@ std::optional<gum::SimulationRequest> read_simulation(const JsonObject& root, Pr
         request.outlier_size = stated.outliers.size.value_or(request.outlier_size);
         if (const auto size = of_outliers.number("size_um"); size && request.outliers == 0) {
             problems.warn(k_warn_unused_value, outliers->where("size_um"),
-                          "size_um " + text::shortest_plain(*size) + " µm is not used", "no outliers are asked for",
-                          "remove it, or state their count");
+                          "size_um " + text::shortest_plain(*size) + " µm" + " is not used",
+                          "no outliers are asked for", "remove it, or state their count");
         }
     }
     read_counts(*object, request.angle_counts);

@@ -1,7 +1,7 @@
 """Every sentence that the program writes into a record has its wording in four languages, and every text of the wording
 is used.
 
-Seven laws:
+Eight laws:
 1. A text of words in the sources that make findings, remarks and messages, every gate among them, stands in an English pattern of
    templates/wording/sentences.json. Texts that are put together of several literals are found literal by literal.
 2. Every entry of sentences.json has a text in each language, with the same placeholders, and the languages have the same
@@ -15,6 +15,7 @@ Seven laws:
 6. A thing has one name in a language: what one sentence of a document calls a budget, a tolerance or consistency, the
    table beside it calls the same.
 7. What a reader of jobs warns of (warn()) stands in sentences.json, too: it is among the messages of the evaluation.
+8. A value to be written into JSON is no number of a language there: a job with 0,5 is refused.
 """
 
 import json
@@ -42,9 +43,11 @@ SOURCES = (
     "reports/record/make/comparison/laboratory_notes.cpp",
     "reports/record/make/comparison/method_remarks.cpp",
     "reports/record/make/rotary_table/location_error_record.cpp",
+    "reports/record/make/rotary_table/reference_comparison.cpp",
     "reports/record/make/rotary_table/rotary_findings.cpp",
     "reports/record/make/rotary_table/rotary_monte_carlo_record.cpp",
     "reports/record/make/rotary_table/table_parameter_record.cpp",
+    "engine/rotary_table/evaluation/repeatability_check.cpp",
     "engine/rotary_table/group_notes.cpp",
     "engine/rotary_table/reversal_choice.cpp",
     "gum/budget/budget_coverage.cpp",
@@ -61,7 +64,7 @@ SOURCES = (
 )
 
 # Readers whose warnings documents in all languages print. Plans and simulations are in English.
-WARNING_READERS = ("jobs/budget/*.cpp", "jobs/comparison/*.cpp", "jobs/laboratory/*.cpp")
+WARNING_READERS = ("jobs/budget/*.cpp", "jobs/comparison/*.cpp", "jobs/laboratory/*.cpp", "jobs/rotary_table/*.cpp")
 
 # Names that a language has for a thing beside the one that is used, and this one.
 OTHER_NAMES = {
@@ -88,6 +91,7 @@ NOT_IN_RECORDS = (
 
 FORMS = re.compile(r"\{[a-z_]+\?([^|}]*)\|([^}]*)\}")  # reports/forms_of_number.h
 LITERAL = re.compile(r'"((?:[^"\\]|\\.)*)"')
+JSON_FRAGMENT = re.compile(r'"\w+"\s*:\s*(?:\{\{.*\}\}|\[.*?\]|"[^"]*"|[^\s，。]+)')  # "key": value
 ESCAPED = re.compile(r"\\u([0-9A-Fa-f]{4})")
 
 
@@ -178,6 +182,19 @@ def uneven_entries(catalogue: dict) -> list[str]:
         for language in LANGUAGES[1:]:
             if placeholders(entry[language]) != placeholders(entry["en"]):
                 problems.append(f"sentences.json#/{key}/{language}: other placeholders than in English")
+    return problems
+
+
+def decimal_signs_in_json(catalogue: dict) -> list[str]:
+    """Law 8: the kind in the English pattern says which values get the decimal sign of the language."""
+    problems = []
+    for key, entry in catalogue.items():
+        kinds = dict(re.findall(r"\{(\w+):(\w+)\}", entry["en"]))
+        for language, text in entry.items():
+            for fragment in JSON_FRAGMENT.findall(text):
+                worded = [name for name in re.findall(r"\{(\w+)", fragment) if kinds.get(name) in ("number", "list")]
+                if worded or re.search(r"\d,\d", fragment):
+                    problems.append(f"sentences.json#/{key}/{language}: decimal sign of the language in JSON: {fragment!r}")
     return problems
 
 
@@ -419,6 +436,7 @@ def main(root: pathlib.Path) -> int:
     catalogue = json.loads((root / "templates/wording/sentences.json").read_text(encoding="utf-8"))
     problems = (
         uneven_entries(catalogue)
+        + decimal_signs_in_json(catalogue)
         + uneven_files(root)
         + missing_keys(root)
         + unused_keys(root)

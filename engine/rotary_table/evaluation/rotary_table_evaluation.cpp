@@ -15,7 +15,9 @@
 #include "engine/degrees_text.h"
 #include "engine/median.h"
 #include "engine/rotary_table/anglewise_map.h"
+#include "engine/rotary_table/evaluation/repeatability_check.h"
 #include "engine/rotary_table/evaluation/rival_tables.h"
+#include "engine/rotary_table/evaluation/scaled_lengths.h"
 #include "engine/rotary_table/geometry_check.h"
 #include "engine/rotary_table/group_notes.h"
 #include "engine/rotary_table/start/start_search.h"
@@ -98,8 +100,9 @@ std::string stations_in_one_sense(const RotaryTableMeasurement& measurement) {
 /// is left that could object, and what remains agrees with itself whichever distances are the wrong ones. A repeatability of the
 /// table that is estimated takes up what a false choice leaves: then it is the redundancy of the length noise that could object.
 /// \param length_redundancy  [1]; 0: not known
+/// \param held_noise         u of a length where it is as stated, [m]; 0: estimated
 void require_rest_that_can_object(std::size_t left_out, Eigen::Index degrees_of_freedom, double length_redundancy,
-                                  std::size_t lengths) {
+                                  std::size_t lengths, double held_noise) {
     constexpr std::size_t k_several = 2;  // one stands out by itself
     constexpr double k_least_of_each = 2.0;
     const bool is_of_few = static_cast<Eigen::Index>(left_out) > degrees_of_freedom;
@@ -111,16 +114,21 @@ void require_rest_that_can_object(std::size_t left_out, Eigen::Index degrees_of_
     throw gum::NoResultError(gum::Diagnostic{
         "GC-ADJUST-0017", "outlying distances",
         std::to_string(left_out) + " of " + std::to_string(lengths) + " distances left out, with " +
-            (is_of_few
-                 ? text::degrees_of_freedom(std::to_string(degrees_of_freedom)) + " that remain" +
-                       (degrees_of_freedom == 1 ? "s" : "")
-                 : "a redundancy of " + text::significant(length_redundancy, 2) + " that remains to the length noise"),
+            (is_of_few ? text::degrees_of_freedom(std::to_string(degrees_of_freedom)) + " that remain" +
+                             (degrees_of_freedom == 1 ? "s" : "")
+                       : "a redundancy of " +
+                             (length_redundancy < 99.5 ? text::significant(length_redundancy, 2)
+                                                       : text::fixed(length_redundancy, 0)) +
+                             " that remains to the length noise"),
         is_of_few ? "at least as many degrees of freedom as distances that are left out must remain: with fewer, "
                     "another choice of distances agrees as well"
                   : "a redundancy of the length noise of two must remain for each of several distances that are left "
                     "out: with less, the repeatability of the table makes up for another choice of them",
         "measure more stations, reflectors or passes, or look for the cause of the deviations and correct the "
-        "distances",
+        "distances" +
+            (held_noise > 0.0 ? "; where there is none, see whether the stated standard uncertainty of a length, " +
+                                    micrometres(held_noise) + ", is too small"
+                              : std::string()),
         gum::Severity::error});
 }
 
@@ -721,6 +729,72 @@ void check_fixture(RotaryTableSolution& solution, const JointAdjustment& adjustm
     }
 }
 
+/// A repeatability that is given, or said to be none, and that the distances refute; and what they give in its place.
+struct RefutedWeights {
+    std::vector<RefutedRepeatability> refuted;
+    JointAdjustment adjustment;  ///< at the estimated weights
+    StochasticModel stochastic;
+    Iteration iteration;
+
+    [[nodiscard]] bool larger() const { return std::ranges::any_of(refuted, &RefutedRepeatability::larger); }
+};
+
+double variance_of(const StochasticModel& stochastic, ComponentRow row) {
+    return row == table_linear  ? stochastic.variance_linear
+           : row == table_axial ? stochastic.variance_axial
+                                : stochastic.variance_tilt;
+}
+
+/// None where the distances do not refute it, or give nothing in its place.
+std::optional<RefutedWeights> check_repeatability(const JointAdjustment& adjustment, const Iteration& main,
+                                                  const StochasticModel& stochastic, const EvaluationOptions& options,
+                                                  const Progress& progress) {
+    const TableRepeatability& given = adjustment.measurement().table_repeatability;
+    if (given.mode == RepeatabilityMode::estimate || !options.chi_square_upper_tail) {
+        return std::nullopt;
+    }
+    EstimatedComponents estimated = main.estimated();
+    estimated.table = true;
+    // One step from the given weights decides: sound measurements pay no more.
+    std::vector<RefutedRepeatability> refuted = refuted_repeatability(
+        estimate_variance_components(adjustment, *main.normal, main.covariance, stochastic, estimated), given,
+        options.chi_square_upper_tail);
+    if (refuted.empty()) {
+        return std::nullopt;
+    }
+    RefutedWeights result{std::move(refuted), adjustment, stochastic, Iteration(estimated, progress)};
+    SolverOptions solver = options.solver;
+    solver.step_tolerance = std::max(solver.step_tolerance, k_step_of_a_check);
+    try {
+        result.iteration.settle(result.adjustment, result.stochastic, options.max_component_iterations,
+                                std::max(options.component_tolerance, 1e-4), solver);
+    } catch (const gum::NoResultError&) {
+        return std::nullopt;  // a check, which the result does not need
+    }
+    return result;
+}
+
+/// Whether a suspicious group makes the visits scatter, and not the table: without it what is given holds.
+bool is_explained_by(const GroupTests& groups, const RefutedWeights& check, const EvaluationOptions& options) {
+    constexpr double k_held = 1.25 * 1.25;  // of a variance
+    if (groups.tests.empty() || !groups.tests.front().suspicious) {
+        return false;
+    }
+    const GroupTest& group = groups.tests.front();
+    if (group.errors.empty()) {
+        return true;  // what its distances are off by is not known
+    }
+    try {
+        const StochasticModel without =
+            variances_without(group, check.adjustment, check.iteration.estimated(), check.stochastic, options);
+        return std::ranges::all_of(check.refuted, [&](const RefutedRepeatability& of) {
+            return !of.larger || variance_of(without, of.row) <= k_held * of.given * of.given;
+        });
+    } catch (const gum::NoResultError&) {
+        return true;
+    }
+}
+
 void fill_variance_factor(RotaryTableSolution& solution) {
     if (solution.degrees_of_freedom > 0) {
         solution.variance_factor = solution.chi_square / static_cast<double>(solution.degrees_of_freedom);
@@ -1204,10 +1278,11 @@ Adjusted adjust_and_test(const RotaryTableMeasurement& measurement, StartSearch&
     solution.observations = normal.observation_count();
     solution.parameters = normal.parameter_count();
     solution.degrees_of_freedom = solution.observations - solution.parameters;
-    require_rest_that_can_object(static_cast<std::size_t>(std::ranges::count_if(
-                                     solution.reliability, [](const DistanceReliability& row) { return row.removed; })),
-                                 solution.degrees_of_freedom, iteration.step.length_redundancy,
-                                 measurement.lengths.size());
+    require_rest_that_can_object(
+        static_cast<std::size_t>(
+            std::ranges::count_if(solution.reliability, [](const DistanceReliability& row) { return row.removed; })),
+        solution.degrees_of_freedom, iteration.step.length_redundancy, measurement.lengths.size(),
+        iteration.step.components[length_noise].estimated ? 0.0 : iteration.step.components[length_noise].value);
     solution.iterations = iteration.iterations;
     solution.chi_square = normal.chi_square();
     solution.condition_number = normal.condition_number();
@@ -1243,15 +1318,40 @@ Adjusted adjust_and_test(const RotaryTableMeasurement& measurement, StartSearch&
                                          options.chi_square_upper_tail);
     }
 
+    std::optional<RefutedWeights> refuted = check_repeatability(adjustment, iteration, stochastic, options, progress);
     if (options.chi_square_upper_tail) {
         iteration.report("groups of distances");
         const GroupTestOptions group_options{.chi_square_upper_tail = options.chi_square_upper_tail};
-        if (is_concentrated(measurement, active) && active != but_gross) {
-            solution.groups = groups_with_all(adjustment, but_gross, estimated, stochastic, options, group_options);
+        const auto groups_at = [&](const JointAdjustment& at, const Iteration& of, const StochasticModel& weights) {
+            std::optional<GroupTests> groups;
+            if (is_concentrated(measurement, active) && active != but_gross) {
+                groups = groups_with_all(at, but_gross, of.estimated(), weights, options, group_options);
+            }
+            if (!groups) {
+                groups = groups_of(at, *of.normal, of.covariance, of.estimated(), weights, options, group_options);
+            }
+            return groups;
+        };
+        // A repeatability that is given too small makes groups of distances suspicious, and the reversal seem to depend on
+        // the angle: both are judged at what the distances give. What is suspicious then makes the visits scatter, perhaps.
+        if (refuted && refuted->larger()) {
+            std::optional<GroupTests> as_given = groups_at(adjustment, iteration, stochastic);
+            // A change that explains the scatter is hidden by variances that hold it.
+            const bool is_change = !as_given->tests.empty() && !as_given->tests.front().errors.empty();
+            if (!(is_change && is_explained_by(*as_given, *refuted, options))) {
+                solution.groups = groups_at(refuted->adjustment, refuted->iteration, refuted->stochastic);
+            }
+            if (!solution.groups || is_explained_by(*solution.groups, *refuted, options)) {
+                solution.groups = std::move(as_given);
+                refuted.reset();
+            } else if (adjustment.reversal_by_angle() && options.fisher_upper_tail) {
+                solution.reversal_tests =
+                    test_reversals(refuted->adjustment, *refuted->iteration.normal, refuted->iteration.covariance,
+                                   refuted->iteration.step.components, options.fisher_upper_tail);
+            }
         }
         if (!solution.groups) {
-            solution.groups =
-                groups_of(adjustment, normal, covariance, iteration.estimated(), stochastic, options, group_options);
+            solution.groups = groups_at(adjustment, iteration, stochastic);
         }
     }
 
@@ -1297,6 +1397,11 @@ Adjusted adjust_and_test(const RotaryTableMeasurement& measurement, StartSearch&
              "the redundancy of its coordinates must be at least 2 and its estimate greater than 0",
              "measure more reflectors, or rely on the uncertainty budget of the CMM", gum::Severity::note});
     }
+    if (refuted) {
+        for (const RefutedRepeatability& of : refuted->refuted) {
+            solution.notes.push_back(repeatability_note(of, std::sqrt(variance_of(refuted->stochastic, of.row))));
+        }
+    }
     note_outliers(solution, measurement, settled);
     note_implausible_angles(solution, measurement);
     if (solution.groups) {
@@ -1330,6 +1435,18 @@ Adjusted adjust_and_test(const RotaryTableMeasurement& measurement, StartSearch&
     return {std::move(solution), may_depend};
 }
 
+/// Whether the noise that is left is many times what is stated, and no scale of a station or of the fixture is told in its
+/// place.
+bool is_hardly_noise(const RotaryTableSolution& solution) {
+    constexpr double k_times = 4.0;
+    const VarianceComponent& noise = solution.components[length_noise];
+    return noise.estimated && noise.stated && noise.value > k_times * *noise.stated && solution.groups &&
+           std::ranges::none_of(solution.groups->tests, [](const GroupTest& test) {
+               return test.suspicious &&
+                      (test.kind == GroupKind::fixture_scale || test.kind == GroupKind::station_scale);
+           });
+}
+
 /// The reversal of all angles, or that of each where the measurement or the distances ask for it.
 RotaryTableSolution adjust_with_reversal(const RotaryTableMeasurement& measurement, StartSearch& start_search,
                                          const EvaluationOptions& options, const Progress& progress) {
@@ -1357,6 +1474,13 @@ RotaryTableSolution adjust_with_reversal(const RotaryTableMeasurement& measureme
         solution.notes.push_back(*refuted);
     }
     if (!adopted) {
+        // A reversal of all angles that the distances refute makes the visits scatter, and not the table.
+        const auto is_of_repeatability = [](const gum::Diagnostic& note) {
+            return note.code == k_repeatability_too_small;
+        };
+        if (refuted && std::ranges::none_of(each.notes, is_of_repeatability)) {
+            std::erase_if(solution.notes, is_of_repeatability);
+        }
         solution.reversal_tests = std::move(each.reversal_tests);
     }
     return std::move(solution);
@@ -1371,8 +1495,27 @@ RotaryTableSolution evaluate_jointly(const RotaryTableMeasurement& measurement, 
         progress("start values");
     }
     StartSearch start_search(measurement);
+    const auto refuse_scaled = [&] {
+        std::vector<gum::Diagnostic> causes;
+        try {
+            std::vector<bool> active(measurement.lengths.size(), true);
+            for (const std::size_t i : start_search.gross_errors()) {
+                active[i] = false;
+            }
+            causes = scaled_lengths(measurement, start_search.places(active), active, options.solver, options.workers);
+        } catch (const gum::NoResultError&) {
+            return;  // that is what is refused already
+        }
+        if (!causes.empty()) {
+            throw gum::NoResultError(std::move(causes));
+        }
+    };
     try {
-        return adjust_with_reversal(measurement, start_search, options, progress);
+        RotaryTableSolution solution = adjust_with_reversal(measurement, start_search, options, progress);
+        if (is_hardly_noise(solution)) {
+            refuse_scaled();
+        }
+        return solution;
     } catch (const gum::NoResultError& error) {
         // Wrong labels and an interrupted beam look like a station whose place is open, like one that fits no table, like
         // an adjustment that goes astray, like a table that nobody has, or like many outlying distances.
@@ -1382,6 +1525,11 @@ RotaryTableSolution evaluate_jointly(const RotaryTableMeasurement& measurement, 
                        problem.code == "GC-RANK-0001" || problem.code == "GC-VARIANCE-0008";
             })) {
             start_search.refuse_wrong_labels();
+            if (std::ranges::any_of(error.diagnostics(), [](const gum::Diagnostic& problem) {
+                    return problem.code == "GC-ADJUST-0005" || problem.code == "GC-ADJUST-0017";
+                })) {
+                refuse_scaled();
+            }
             start_search.refuse_interrupted_beams();
             // Neither what is open nor how far an adjustment came says anything of distances that fit no place.
             start_search.refuse_no_rigid_table();

@@ -93,9 +93,10 @@ gum::Diagnostic wrong_labels(const RotaryTableMeasurement& measurement, const La
                 gum::Severity::error};
     }
     if (cause.scale) {
-        return {"GC-ADJUST-0013",
-                where,
-                "the distances agree when they are multiplied by about " + text::fixed(cause.lengths, 4),
+        return {"GC-ADJUST-0013", where,
+                // A refractive index that was left out is 270 ppm.
+                "the distances agree when they are multiplied by about " +
+                    text::fixed(cause.lengths, std::abs(cause.lengths - 1.0) < 5e-4 ? 6 : 4),
                 "a distance grows as the reflector moves away from the station, by as much as it moves",
                 station.empty() ? "see in which unit distances and coordinates of the fixture were written, which "
                                   "refractive index of the air the distances were made with, and at which "

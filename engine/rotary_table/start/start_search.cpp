@@ -6,6 +6,7 @@
 
 #include "engine/rotary_table/start/gross_errors.h"
 #include "engine/rotary_table/start/interrupted_beams.h"
+#include "engine/rotary_table/start/label_hypothesis.h"
 #include "engine/rotary_table/start/no_rigid_table.h"
 #include "engine/rotary_table/start/open_places.h"
 #include "engine/rotary_table/start/place_search.h"
@@ -76,6 +77,11 @@ void StartSearch::refuse_interrupted_beams() {
         engine::refuse_interrupted_beams(found_->measurement);
         found_->tried_interruptions = true;
     }
+}
+
+gum::Diagnostic factor_on_distances(const RotaryTableMeasurement& measurement, double factor,
+                                    const std::string& station) {
+    return wrong_labels(measurement, {.lengths = factor, .scale = true}, station);
 }
 
 }  // namespace gumcert::engine

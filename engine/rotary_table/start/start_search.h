@@ -2,10 +2,12 @@
 
 #include <cstddef>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "engine/rotary_table/rotary_table_measurement.h"
 #include "engine/rotary_table/start/common_set_up.h"
+#include "gum/quantity/diagnostic.h"
 
 namespace gumcert::engine {
 
@@ -38,5 +40,10 @@ private:
     struct Found;
     std::unique_ptr<Found> found_;
 };
+
+/// What is said of distances that agree when they are multiplied by a factor: GC-ADJUST-0013.
+/// \param station  its name; "" of all distances
+[[nodiscard]] gum::Diagnostic factor_on_distances(const RotaryTableMeasurement& measurement, double factor,
+                                                  const std::string& station);
 
 }  // namespace gumcert::engine

@@ -112,6 +112,13 @@ TEST(ProgramSentences, AreWorded) {
     EXPECT_EQ(all.worded("the value 1.5 of R is missing", "fr", ","), "the value 1.5 of R is missing");
 }
 
+/// A value to be written into a job stays as a job is read.
+TEST(ProgramSentences, KeepDecimalPointsOfJson) {
+    const ProgramSentences all(catalogue_file());
+    EXPECT_EQ(all.worded("where it shows no more, state \"resolution_um\": 0.5", "de", ","),
+              "zeigt es nicht mehr an, geben Sie \"resolution_um\": 0.5 an");
+}
+
 /// Lists stand between semicolons where commas are decimal signs, and where names have commas.
 TEST(ProgramSentences, KeepNamesOfListsWhole) {
     const ProgramSentences all(catalogue_file());

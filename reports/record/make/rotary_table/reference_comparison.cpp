@@ -20,6 +20,7 @@
 #include "reports/record/make/comparison/method_side.h"
 #include "reports/record/make/record_parts.h"
 #include "reports/record/make/rotary_table/document_units.h"
+#include "text/numbers.h"
 
 namespace gumcert::reports {
 
@@ -196,6 +197,82 @@ void add_published(const ReferenceMethod& reference, reports::Comparison& record
     }
 }
 
+/// What all readings of a direction may have wrong: right is factor · reading + constant.
+struct ReadingFault {
+    double factor = 1.0, constant = 0.0;  ///< the constant in µm
+};
+
+/// Whether the readings of a direction are judged to agree where this is put right: what is told of them is what this
+/// comparison says of readings that were right.
+bool agree_without(const ReadingFault& fault, const std::string& direction, gum::MethodComparison comparison) {
+    for (gum::ComparedPoint& point : comparison.points) {
+        if (point.direction == direction) {
+            point.reference_value = fault.factor * point.reference_value + fault.constant;
+        }
+    }
+    for (const gum::MethodSummary& summary : gum::compare_methods(comparison).summaries) {
+        if (summary.direction == direction) {
+            return std::min(summary.verdict, summary.verdict_audited.value_or(summary.verdict)) >
+                   gum::AgreementVerdict::correlation_unknown;
+        }
+    }
+    return false;
+}
+
+/// What the readings of a direction that disagree may have wrong as a whole: their sign, their unit, where they count from.
+/// Told where they agree without it, and where that leaves less than half of what the uncertainties allow, and a third of
+/// the differences: of few readings, or small displacements, nothing is.
+void add_hints_at_readings(const gum::MethodComparison& comparison, reports::Comparison& record) {
+    constexpr std::size_t k_fewest = 4;
+    constexpr double k_of_expanded = 0.5;
+    constexpr double k_of_differences = 1.0 / 3.0;
+    for (const reports::ComparisonSummary& summary : record.summary) {
+        std::vector<const reports::ComparisonPoint*> points;
+        for (const reports::ComparisonPoint& point : record.points) {
+            if (point.direction == summary.direction && point.contributes && point.U_D.number) {
+                points.push_back(&point);
+            }
+        }
+        if (summary.verdict != "disagreement" || points.size() < k_fewest) {
+            continue;
+        }
+        const auto root_mean_square = [&](const auto& of) {
+            double squares = 0.0;
+            for (const reports::ComparisonPoint* point : points) {
+                squares += std::pow(of(*point), 2);
+            }
+            return std::sqrt(squares / static_cast<double>(points.size()));
+        };
+        double mean = 0.0;
+        for (const reports::ComparisonPoint* point : points) {
+            mean += point->D.number / static_cast<double>(points.size());
+        }
+        const double limit = std::min(k_of_expanded * root_mean_square([](const auto& p) { return *p.U_D.number; }),
+                                      k_of_differences * root_mean_square([](const auto& p) { return p.D.number; }));
+        const auto explains = [&](const ReadingFault& fault) {
+            const double left = root_mean_square([&](const auto& p) {
+                return p.D.number + (1.0 - fault.factor) * p.reference_value.number - fault.constant;
+            });
+            return left < limit && agree_without(fault, summary.direction, comparison);
+        };
+        if (explains({.factor = -1.0})) {
+            record.remarks.push_back("In direction " + summary.direction +
+                                     " the readings agree when they have the other sign: see in which sense the "
+                                     "indicator counts.");
+        } else if (explains({.factor = 1000.0})) {
+            record.remarks.push_back("In direction " + summary.direction +
+                                     " the readings agree when they are multiplied by 1000: see whether they are in "
+                                     "millimetres.");
+        } else if (explains({.constant = mean})) {
+            record.remarks.push_back("In direction " + summary.direction +
+                                     " the readings agree but for one constant, " +
+                                     text::significant(std::abs(mean), 3) +
+                                     " µm: they count from where the indicator was set to zero, and displacements from "
+                                     "the axis average line.");
+        }
+    }
+}
+
 }  // namespace
 
 reports::Comparison reference_comparison(const RotaryTableJob& job, const gum::QuantityUncertainty& displacement) {
@@ -237,6 +314,7 @@ reports::Comparison reference_comparison(const RotaryTableJob& job, const gum::Q
     add_method_comparison(comparison, "um", record);
     record.method_budget = budget_of_displacement(displacement.budget, points, record);
     add_published(reference, record);
+    add_hints_at_readings(comparison, record);
     return record;
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "engine/rotary_table/evaluation/repeatability_check.h"
 #include "engine/rotary_table/group_notes.h"
 #include "gum/coverage.h"
 #include "gum/rounding.h"
@@ -220,6 +221,15 @@ std::vector<certificate::Finding> rotary_findings(const EvaluationRecord& record
                                .id = "G04",
                                .clause = "ISO/IEC 17025:2017, 7.7.1",
                                .accredited = FindingSeverity::critical});
+        }
+    }
+    for (const gum::Diagnostic& message : record.diagnostics) {
+        const bool is_too_small = message.code == engine::k_repeatability_too_small;
+        if (record.rotary && (is_too_small || message.code == engine::k_repeatability_too_large)) {
+            remarks.push_back({.message = message,
+                               .id = "G07",
+                               .clause = "ISO/IEC 17025:2017, 7.7.1",
+                               .accredited = is_too_small ? FindingSeverity::critical : FindingSeverity::major});
         }
     }
     if (record.rotary) {

@@ -14,8 +14,8 @@ namespace gumcert::reports {
 [[nodiscard]] std::vector<gum::Diagnostic> rotary_remarks(const reports::EvaluationRecord& record);
 
 /// The same as findings of a certificate: G01 and G03, critical where it is accredited, and G02, information; and G04
-/// for every group of distances that the adjustment found suspicious, critical where it is accredited
-/// (docs/findings.md).
+/// for every group of distances that the adjustment found suspicious, and G07 for every component of a given repeatability
+/// that the distances refute, critical where it is accredited and the component is too small (docs/findings.md).
 [[nodiscard]] std::vector<certificate::Finding> rotary_findings(const reports::EvaluationRecord& record);
 
 }  // namespace gumcert::reports

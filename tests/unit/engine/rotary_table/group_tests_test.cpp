@@ -184,6 +184,31 @@ TEST(GroupTests, FindDrift) {
     }
 }
 
+// Of few stations the error motions leave little more than one number at an angle: what all stations show of it is one observation.
+TEST(GroupTests, TakeStationsThatShowTheSameForOneSuccession) {
+    double mean = 0.0;     // of the test value; 1/2 of one side of a square of a normal deviate
+    double of_each = 0.0;  // were the visits of all stations independent
+    constexpr std::uint64_t k_campaigns = 16;
+    for (std::uint64_t seed = 301; seed < 301 + k_campaigns; ++seed) {
+        CampaignPlan plan;
+        plan.angles_deg = synthetic::full_turn(24);
+        plan.stations.resize(4);
+        plan.reflectors.resize(4);
+        plan.table_linear = 0.3e-6;
+        plan.table_axial = plan.table_tilt = 2e-6;
+        plan.start_values = true;
+        plan.seed = seed;
+        for (const GroupTest& test : tests_of(simulate(plan).measurement).tests) {
+            if (test.kind == GroupKind::succession) {
+                mean += test.chi_square / k_campaigns;
+                of_each += std::pow(std::max(0.0, test.estimate), 2) * 4.0 * 23.0 / k_campaigns;
+            }
+        }
+    }
+    EXPECT_LT(mean, 0.9) << of_each;
+    EXPECT_GT(of_each, mean);
+}
+
 /// The same drift by the order of the rows and by times is told with one size; the rows may then stand in any order.
 TEST(GroupTests, TakeADriftFromTheTimesOfTheDistances) {
     RotaryTableMeasurement measurement = campaign(40).measurement;

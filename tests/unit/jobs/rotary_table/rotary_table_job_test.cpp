@@ -853,6 +853,14 @@ TEST(RotaryTableJob, ReadsTheFixtureCovariance) {
     EXPECT_THAT(
         gum::message(warnings[0]),
         HasSubstr("covariance.csv (row 2) — u from the covariance is 0.4 µm, from the column of the fixture file 0.5"));
+
+    // One cause is one warning, at the coordinate that differs most.
+    files = small_campaign();
+    with_covariance([](std::size_t i, std::size_t j) { return i == j ? (i == 4 ? 9.0 : 4.0) : 0.0; })(files);
+    const auto of_all = read(files).warnings;
+    ASSERT_EQ(of_all.size(), 1U) << texts(of_all);
+    EXPECT_THAT(gum::message(of_all[0]), HasSubstr("covariance.csv (row 5) — u from the covariance is 3 µm"));
+    EXPECT_THAT(gum::message(of_all[0]), HasSubstr("12 of 12 coordinates differ, this one most"));
 }
 
 TEST(RotaryTableJob, ReadsTheCertificateFromAFile) {
@@ -1495,6 +1503,33 @@ TEST(RotaryTableJob, WarnsOfUncertaintiesThatLookLikeThoseInAnotherUnit) {
     // Lengths that were measured have a step, which says more.
     EXPECT_THAT(warned(small_layout(), "job.json", "\"u_constant_um\": 0.", "\"u_constant_um\": 0.000", JobUse::plan),
                 one("u_constant_um is in micrometres"));
+}
+
+TEST(RotaryTableJob, WarnsOfTemperaturesThatAreAllFarFromTheReference) {
+    const auto warned = [](const std::string& reference, double temperature) {
+        Files files = small_campaign();
+        std::string rows = "station,fixture_temperature_degC,u_temperature_K\n";
+        for (const char* station : {"P1", "P2", "P3"}) {
+            rows += std::string(station) + "," + std::to_string(temperature) + ",0.04\n";
+        }
+        files.at("environment.csv") = rows;
+        if (!reference.empty()) {
+            replace(files.at("job.json"), "\"coordinates\": \"fixture.csv\"",
+                    "\"coordinates\": \"fixture.csv\", \"reference_temperature_degC\": " + reference);
+        }
+        return read(files).warnings;
+    };
+    EXPECT_THAT(warned("", 38.0), IsEmpty());
+    EXPECT_THAT(warned("68", 68.5), IsEmpty()) << "a laboratory may refer its fixture to another temperature";
+    for (const auto& warnings : {warned("", 68.5), warned("68", 20.2)}) {
+        ASSERT_EQ(warnings.size(), 1U) << texts(warnings);
+        EXPECT_EQ(warnings[0].code, k_warn_far_temperatures.code);
+        EXPECT_THAT(gum::message(warnings[0]), HasSubstr("68 °F are 20 °C"));
+    }
+    // The least distance, rounded towards the reference: no temperature is nearer than is said.
+    EXPECT_THAT(gum::message(warned("", 68.5)[0]), HasSubstr("is 48 K and more"));
+    EXPECT_THAT(gum::message(warned("", 40.6)[0]), HasSubstr("is 20 K and more"));
+    EXPECT_THAT(gum::message(warned("", -0.6)[0]), HasSubstr("is 20 K and more"));
 }
 
 TEST(RotaryTableJob, WarnsOfKeysThatAreNotUsed) {

@@ -24,6 +24,7 @@ using jobs::test::read;
 using jobs::test::refusals;
 using jobs::test::replace;
 using testing::HasSubstr;
+using testing::Not;
 
 constexpr double k_um = 1e-6;
 const double k_factor = gum::coverage_factor(0.9545, INFINITY);  // 2.0000024
@@ -132,6 +133,39 @@ TEST(ReferenceComparison, TakesAnErrorOfEachPointApartWhereTheDescriptionSaysSo)
     EXPECT_NEAR(*x.p_low.number, 0.2469956883, 1e-7);
     EXPECT_NEAR(*comparison.points[0].En.number, 1.0 / k_factor, 1e-12);
     EXPECT_THAT(joined(comparison.remarks), HasSubstr("\"mpe_common\": false"));
+}
+
+// The verdict is a disagreement of what is stated; what is stated wrongly of all readings is named.
+TEST(ReferenceComparison, NamesWhatAllReadingsHaveWrong) {
+    gum::QuantityUncertainty moved = displacement(0.1);
+    for (Eigen::Index k = 0; k < 8; ++k) {
+        moved.budget.value(3 * k) = 5.0 * std::cos(static_cast<double>(k)) * k_um;
+    }
+    /// \param beside  what single readings have wrong beside it, by the number of the reading
+    const auto remarks_of = [&](double factor, double constant, const std::vector<double>& beside = {}) {
+        Files files = campaign({});
+        for (std::size_t k = 0; k < 8; ++k) {
+            const double reading = 5.0 * std::cos(static_cast<double>(k)) * factor + constant;
+            files["dial_indicator.csv"] += "x," + std::to_string(45 * k) + ",1," +
+                                           std::to_string(reading + (k < beside.size() ? beside[k] : 0.0)) + "\n";
+        }
+        return joined(reference_comparison(read(files), moved).remarks);
+    };
+    EXPECT_THAT(remarks_of(1.0, 0.0), Not(HasSubstr("the readings agree")));
+    EXPECT_THAT(remarks_of(-1.0, 0.0), HasSubstr("In direction x the readings agree when they have the other sign"));
+    EXPECT_THAT(remarks_of(0.001, 0.0),
+                HasSubstr("In direction x the readings agree when they are multiplied by 1000"));
+    EXPECT_THAT(remarks_of(1.0, -12.0), HasSubstr("In direction x the readings agree but for one constant, 12 µm"));
+    EXPECT_THAT(remarks_of(-0.5, 3.0), Not(HasSubstr("the readings agree")));
+    // Readings that disagree by themselves do so with the other sign, or but for a constant.
+    const std::vector<double> scatter{0.1, -0.1, 0.0, 0.1, -0.1, 0.1, 0.0, -0.1};
+    const std::vector<double> one_off{0.0, 0.0, 1.0};
+    const std::vector<double> alternating{0.35, -0.35, 0.35, -0.35, 0.35, -0.35, 0.35, -0.35};
+    for (const auto& [factor, constant] : {std::pair(-1.0, 0.0), std::pair(1.0, -12.0)}) {
+        EXPECT_THAT(remarks_of(factor, constant, scatter), HasSubstr("the readings agree"));
+        EXPECT_THAT(remarks_of(factor, constant, one_off), Not(HasSubstr("the readings agree")));
+        EXPECT_THAT(remarks_of(factor, constant, alternating), Not(HasSubstr("the readings agree")));
+    }
 }
 
 TEST(ReferenceComparison, TakesDirectionsAsIndependentOfEachOther) {

@@ -191,5 +191,21 @@ TEST(RotaryFindings, OfOtherRecordsAreNone) {
     EXPECT_TRUE(rotary_remarks(EvaluationRecord()).empty());
 }
 
+TEST(RotaryFindings, ARefutedRepeatabilityBlocksWhereItIsTooSmall) {
+    const auto record_of = [](const char* code) {
+        EvaluationRecord record = record_with(100.0, 0.48);
+        record.diagnostics.push_back({.code = code, .where = "w", .what = "w", .rule = "r", .action = "a"});
+        return record;
+    };
+    EvaluationRecord record = record_of("GC-VARIANCE-0010");
+    EXPECT_EQ(ids(record), Ids{"G07"});
+    EXPECT_EQ(rotary_findings(record).front().severity, FindingSeverity::critical);
+    record.certificate->data.status = "not_accredited";
+    EXPECT_EQ(rotary_findings(record).front().severity, FindingSeverity::major);
+    record = record_of("GC-VARIANCE-0011");
+    EXPECT_EQ(ids(record), Ids{"G07"});
+    EXPECT_EQ(rotary_findings(record).front().severity, FindingSeverity::major);
+}
+
 }  // namespace
 }  // namespace gumcert::reports
