@@ -44,13 +44,19 @@ std::vector<RefutedRepeatability> refuted_repeatability(
         }
         const double more = (component.value * component.value - values[k] * values[k]) / spread;
         const double above = chi_square_upper_tail(std::max(0.0, nu + more * std::sqrt(2.0 * nu)), nu);
-        if (component.value > k_quarter_larger * values[k] && above < k_level_of_each) {
-            refuted.push_back({row, values[k], true});
-        } else if (component.value < k_less_than_half * values[k] && 1.0 - above < k_level_of_each) {
-            refuted.push_back({row, values[k], false});
+        for (const bool larger : {true, false}) {
+            const RefutedRepeatability candidate{row, values[k], larger};
+            if (is_refuted_by(candidate, component.value) && (larger ? above : 1.0 - above) < k_level_of_each) {
+                refuted.push_back(candidate);
+            }
         }
     }
     return refuted;
+}
+
+bool is_refuted_by(const RefutedRepeatability& refuted, double distances_give) {
+    return refuted.larger ? distances_give > k_quarter_larger * refuted.given
+                          : distances_give < k_less_than_half * refuted.given;
 }
 
 gum::Diagnostic repeatability_note(const RefutedRepeatability& refuted, double distances_give) {

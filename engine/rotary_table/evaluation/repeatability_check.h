@@ -35,6 +35,10 @@ struct RefutedRepeatability {
     const VarianceComponentStep& step, const TableRepeatability& given,
     const std::function<double(double, double)>& chi_square_upper_tail);
 
+/// Whether what the estimate comes to in the end says the same as the step that refuted: a quarter larger than what is given, or
+/// less than half of it. [m] or [rad]
+[[nodiscard]] bool is_refuted_by(const RefutedRepeatability& refuted, double distances_give);
+
 /// What a reader is told of it.
 /// \param distances_give  what the estimate comes to in the end, [m] or [rad]
 [[nodiscard]] gum::Diagnostic repeatability_note(const RefutedRepeatability& refuted, double distances_give);

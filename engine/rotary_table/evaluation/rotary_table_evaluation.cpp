@@ -735,6 +735,7 @@ struct RefutedWeights {
     JointAdjustment adjustment;  ///< at the estimated weights
     StochasticModel stochastic;
     Iteration iteration;
+    StochasticModel told = {};  ///< what all distances give that have no gross error
 
     [[nodiscard]] bool larger() const { return std::ranges::any_of(refuted, &RefutedRepeatability::larger); }
 };
@@ -746,8 +747,10 @@ double variance_of(const StochasticModel& stochastic, ComponentRow row) {
 }
 
 /// None where the distances do not refute it, or give nothing in its place.
+/// \param active, but_gross  distances that take part, and those without gross errors
 std::optional<RefutedWeights> check_repeatability(const JointAdjustment& adjustment, const Iteration& main,
-                                                  const StochasticModel& stochastic, const EvaluationOptions& options,
+                                                  const StochasticModel& stochastic, const std::vector<bool>& active,
+                                                  const std::vector<bool>& but_gross, const EvaluationOptions& options,
                                                   const Progress& progress) {
     const TableRepeatability& given = adjustment.measurement().table_repeatability;
     if (given.mode == RepeatabilityMode::estimate || !options.chi_square_upper_tail) {
@@ -765,13 +768,25 @@ std::optional<RefutedWeights> check_repeatability(const JointAdjustment& adjustm
     RefutedWeights result{std::move(refuted), adjustment, stochastic, Iteration(estimated, progress)};
     SolverOptions solver = options.solver;
     solver.step_tolerance = std::max(solver.step_tolerance, k_step_of_a_check);
+    const double tolerance = std::max(options.component_tolerance, 1e-4);
     try {
-        result.iteration.settle(result.adjustment, result.stochastic, options.max_component_iterations,
-                                std::max(options.component_tolerance, 1e-4), solver);
+        result.iteration.settle(result.adjustment, result.stochastic, options.max_component_iterations, tolerance,
+                                solver);
+        result.told = result.stochastic;
+        if (active != but_gross) {
+            // At weights that are too small good distances are left out, and what is left scatters less than the table does.
+            JointAdjustment whole = with_active(adjustment, but_gross, result.told);
+            Iteration of_all(estimated, progress);
+            of_all.settle(whole, result.told, options.max_component_iterations, tolerance, solver);
+        }
     } catch (const gum::NoResultError&) {
         return std::nullopt;  // a check, which the result does not need
     }
-    return result;
+    // The step is one from the given weights: where those of another component are wrong, it may point to the wrong side.
+    std::erase_if(result.refuted, [&](const RefutedRepeatability& of) {
+        return !is_refuted_by(of, std::sqrt(variance_of(result.told, of.row)));
+    });
+    return result.refuted.empty() ? std::nullopt : std::optional(std::move(result));
 }
 
 /// Whether a suspicious group makes the visits scatter, and not the table: without it what is given holds.
@@ -1318,7 +1333,8 @@ Adjusted adjust_and_test(const RotaryTableMeasurement& measurement, StartSearch&
                                          options.chi_square_upper_tail);
     }
 
-    std::optional<RefutedWeights> refuted = check_repeatability(adjustment, iteration, stochastic, options, progress);
+    std::optional<RefutedWeights> refuted =
+        check_repeatability(adjustment, iteration, stochastic, active, but_gross, options, progress);
     if (options.chi_square_upper_tail) {
         iteration.report("groups of distances");
         const GroupTestOptions group_options{.chi_square_upper_tail = options.chi_square_upper_tail};
@@ -1399,7 +1415,7 @@ Adjusted adjust_and_test(const RotaryTableMeasurement& measurement, StartSearch&
     }
     if (refuted) {
         for (const RefutedRepeatability& of : refuted->refuted) {
-            solution.notes.push_back(repeatability_note(of, std::sqrt(variance_of(refuted->stochastic, of.row))));
+            solution.notes.push_back(repeatability_note(of, std::sqrt(variance_of(refuted->told, of.row))));
         }
     }
     note_outliers(solution, measurement, settled);

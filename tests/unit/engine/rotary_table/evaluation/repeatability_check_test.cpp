@@ -4,15 +4,18 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/complement.hpp>
 #include <boost/math/distributions/fisher_f.hpp>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
 
 #include "engine/rotary_table/evaluation/rotary_table_evaluation.h"
+#include "gum/quantity/units.h"
 #include "tests/support/synthetic_campaign.h"
 
 namespace gumcert::engine {
@@ -96,6 +99,34 @@ TEST(RepeatabilityCheck, NamesWhatIsTooSmallAndNothingElse) {
     const RotaryTableSolution solution = evaluated_as_given(campaign.measurement, 5.0, 5.0, 5.0);
     EXPECT_FALSE(notes_of(solution, k_repeatability_too_large).empty());
     EXPECT_TRUE(notes_of(solution, k_repeatability_too_small).empty());
+}
+
+// One step from weights that are wrong in one component points to the wrong side of another one; and what is left where good
+// distances were left out scatters less than the table.
+TEST(RepeatabilityCheck, SaysWhatTheDistancesGive) {
+    const Campaign campaign = synthetic::simulate(repeating(1));
+    const double number_of_estimate = 0.25;  // of 18 angles in two passes
+    for (const std::array<double, 3>& factors :
+         {std::array{0.003, 0.25, 0.001}, std::array{0.003, 2.0, 0.001}, std::array{0.0, 0.0, 0.0},
+          std::array{3.0, 0.1, 1.0}, std::array{0.1, 3.0, 0.1}}) {
+        const RotaryTableSolution solution =
+            evaluated_as_given(campaign.measurement, factors[0], factors[1], factors[2]);
+        std::size_t told = 0;
+        for (const gum::Diagnostic& note : solution.notes) {
+            const bool too_small = note.code == k_repeatability_too_small;
+            if (!too_small && note.code != k_repeatability_too_large) {
+                continue;
+            }
+            ++told;
+            const std::size_t row = note.where.ends_with("linear") ? 0 : note.where.ends_with("axial") ? 1 : 2;
+            const std::string before = "the distances give a repeatability of the table of ";
+            const double stated = std::stod(note.what.substr(before.size()));
+            const double unit = row == 0 ? k_linear / gum::k_micrometre : k_angular / gum::k_arcsecond;
+            EXPECT_NEAR(stated / unit, 1.0, number_of_estimate) << note.what;
+            EXPECT_EQ(too_small, stated > factors[row] * unit) << note.what;
+        }
+        EXPECT_GT(told, 0U) << factors[0];
+    }
 }
 
 // The differences of both senses scatter with the table: a repeatability that is given too small made them a reversal of each
