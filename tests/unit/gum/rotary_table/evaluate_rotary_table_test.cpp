@@ -216,8 +216,8 @@ TEST(EvaluateRotaryTable, LeavesOutNoGoodDistanceOfASmallMeasurement) {
             }
         }
     }
-    // 80 campaigns of 48 to 96 distances at a level of 1e-4: 0.6 are expected, of 32 0.2.
-    EXPECT_LE(campaigns_with_removals, test::cases(2, 3));
+    // 80 campaigns of 48 to 96 distances at a level of 1e-4: 0.6 are expected, of 32 0.2; the seeds are fixed.
+    EXPECT_LE(campaigns_with_removals, test::cases(1, 3));
     EXPECT_GT(covered.share(), 0.93);
 }
 
