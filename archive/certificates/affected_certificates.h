@@ -92,7 +92,8 @@ struct Correction {
     std::filesystem::path templates;
     /// Asked before each evaluation for its progress, which may end it: such a certificate is one of which nothing can be said.
     std::function<gum::Progress()> watch = {};
-    std::shared_ptr<reports::ReadWordings> wordings = std::make_shared<reports::ReadWordings>();  ///< of all that is drafted
+    std::shared_ptr<reports::ReadWordings> wordings =
+        std::make_shared<reports::ReadWordings>();  ///< of all that is drafted
 };
 
 /// On which certificate one rests that is not right itself: "EX-1, which is listed, too"; "" where on the standard
