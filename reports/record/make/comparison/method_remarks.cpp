@@ -20,7 +20,6 @@ namespace {
 using reports::Comparison;
 using reports::ComparisonSummary;
 
-constexpr double k_significant = 0.025;  // of p_low and p_high
 constexpr double k_all = 1.0 - 1e-9;
 constexpr double k_nearly_all = 0.95;  // of the points count as independent
 constexpr double k_negligible_reference = 1.0 / 3.0;
@@ -117,9 +116,9 @@ private:
             say("Of " + std::to_string(row.family) +
                 " directions the gravest verdict counts. Each is held against limits that right uncertainties of all "
                 "directions miss as rarely as those of one: p_low and p_high of a direction against " +
-                gum::round_significant(limit_of(k_significant, row), 2) +
+                printed_limit_in_family(gum::k_chance_of_size, row.family) +
                 ", p of its bias and of its pattern against " +
-                gum::round_significant(limit_of(gum::k_chance_of_bias_and_pattern, row), 2) + ".");
+                printed_limit_in_family(gum::k_chance_of_bias_and_pattern, row.family) + ".");
         }
     }
 
@@ -215,7 +214,7 @@ private:
 
     void too_small_differences() {
         const std::string rows =
-            clauses([](const gum::Agreement& row) { return row.p_low < limit_of(k_significant, row); },
+            clauses([](const gum::Agreement& row) { return row.p_low < limit_of(gum::k_chance_of_size, row); },
                     [](const ComparisonSummary& row) { return row.p_low.text; });
         if (!rows.empty()) {
             say("The differences are smaller than their uncertainties let expect (p_low " + rows +
@@ -226,7 +225,7 @@ private:
 
     void too_large_differences() {
         const std::string rows =
-            clauses([](const gum::Agreement& row) { return row.p_high < limit_of(k_significant, row); },
+            clauses([](const gum::Agreement& row) { return row.p_high < limit_of(gum::k_chance_of_size, row); },
                     [](const ComparisonSummary& row) { return row.p_high.text; });
         if (!rows.empty()) {
             say("The differences are larger than their uncertainties let expect (p_high " + rows +
@@ -265,8 +264,8 @@ private:
             }
         };
         const gum::Agreement& row = whole().agreement;
-        open("p_low", row.p_low, row.p_low_least, k_significant);
-        open("p_high", row.p_high, row.p_high_least, k_significant);
+        open("p_low", row.p_low, row.p_low_least, gum::k_chance_of_size);
+        open("p_high", row.p_high, row.p_high_least, gum::k_chance_of_size);
         open("The p of the Mahalanobis distance", row.p_mahalanobis, row.p_mahalanobis_least,
              gum::k_chance_of_bias_and_pattern);
     }
