@@ -570,6 +570,69 @@ std::optional<double> only_number(const Pieces& pieces, const AuditedRow& row) {
     return only;
 }
 
+/// Whether a text says that a number in it is half of something: "half of the digit: 50 mV", "Resolution/2 = 50 mV", "± 50 mV",
+/// "50 mV (half of 100 mV)"; or a bound of so many steps, "±1 digit = 50 mV".
+bool is_said_to_be_half(const Pieces& pieces, const AuditedRow& row, double number) {
+    constexpr double k_half = 0.5, k_same = 1e-9;
+    const auto is_half_word = [](const Piece& piece) {
+        return piece.kind == Piece::Kind::word &&
+               (piece.raw.starts_with("½") || piece.word == "media" || piece.word == "medio" || piece.begins("half") ||
+                piece.begins("halb") || piece.begins("semi") || piece.begins("demi"));
+    };
+    const auto is_number = [&](const Piece& piece, double wanted) {
+        const std::optional<NumberOfRow> held =
+            piece.is_number() ? in_unit_of_row(piece, row) : std::optional<NumberOfRow>();
+        return held && std::abs(held->value - wanted) <= k_same * wanted;
+    };
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+        if (!is_number(pieces[i], number)) {
+            continue;
+        }
+        if (pieces[i].plus_minus) {
+            return true;
+        }
+        for (std::size_t j = i; j-- > 0 && !ends_sentence(pieces[j]);) {
+            const bool is_over_two =
+                pieces[j].is_number() && pieces[j].value == 2.0 && j > 0 && pieces[j - 1].is_sign("/");
+            const bool counts_digits = pieces[j].is_number() && j + 1 < i &&
+                                       (pieces[j + 1].begins("digit") || pieces[j + 1].begins("ziffer") ||
+                                        pieces[j + 1].begins("count") || pieces[j + 1].begins("lsd"));
+            if (is_half_word(pieces[j]) || is_over_two || counts_digits ||
+                (pieces[j].is_number() && pieces[j].value == k_half)) {
+                return true;
+            }
+            const std::optional<NumberOfRow> other =
+                pieces[j].is_number() ? in_unit_of_row(pieces[j], row) : std::optional<NumberOfRow>();
+            if (other && other->has_unit) {
+                break;  // "100 mV, half: 50 mV" begins with what it is half of
+            }
+        }
+        for (std::size_t j = i + 1; j < pieces.size() && !ends_sentence(pieces[j]); ++j) {
+            const bool is_whole = is_number(pieces[j], 2.0 * number);
+            if (is_whole && std::any_of(pieces.begin() + static_cast<std::ptrdiff_t>(i),
+                                        pieces.begin() + static_cast<std::ptrdiff_t>(j), is_half_word)) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+/// The step of a resolution whose words state a number X. Where they say that it is half of the step, the step is 2 X; "half of the
+/// resolution 50 mV" may be half of 50 mV, too: then the columns tell, which hold 25 mV, or a u of 50 mV/√12.
+double step_in_words(const AuditedRow& row, std::span<const Pieces> texts, double X) {
+    const bool is_half = std::any_of(texts.begin(), texts.end(),
+                                     [&](const Pieces& pieces) { return is_said_to_be_half(pieces, row, X); });
+    const auto holds = [X](const std::optional<StatedNumber>& number, double part) {
+        constexpr double k_digits = 0.02;
+        return number && std::abs(std::abs(number->value) - part * X) <= k_digits * part * X;
+    };
+    const double u_of_step = 1.0 / std::sqrt(12.0);
+    const bool is_of_X = holds(row.stated, 0.5) || holds(row.u, u_of_step) || holds(row.contribution, u_of_step) ||
+                         (!row.stated && holds(row.u, 0.5));
+    return is_half && !is_of_X ? 2.0 * X : X;
+}
+
 /// Distributions that a sentence names; "normal" alone is a measurement standard in German.
 Shape shape_in_sentence(const WordLine& words) {
     if (words.has_any({"rect ", "rectang", "rechteck", "*gleichverteil", "uniform distribut", "uniformly"})) {
@@ -754,6 +817,16 @@ void read_comment(AuditedRow& row) {
             row.pooled_s = row.pooled_s ? row.pooled_s : pooled_deviation(pieces, row);
             row.origin_value = row.origin_value ? row.origin_value : deviation_of_readings(pieces, row);
         }
+    }
+    if ((row.origin == Origin::specification || row.origin == Origin::limits) && row.origin_value) {
+        for (const Pieces& pieces : texts) {  // "tolerance band 0.60 mV (±0.30 mV)"
+            const std::optional<double> half_width = plus_minus(pieces, row);
+            const bool is_half = half_width && std::abs(*row.origin_value - 2.0 * *half_width) <= 1e-9 * *half_width;
+            row.origin_value = is_half ? half_width : row.origin_value;
+        }
+    }
+    if (row.origin == Origin::resolution && row.origin_value) {
+        row.origin_value = step_in_words(row, texts, *row.origin_value);
     }
     if (row.origin_value && !(*row.origin_value > 0.0 && std::isfinite(*row.origin_value))) {
         row.origin_value.reset();  // "U = 0" says nothing of a size

@@ -138,6 +138,13 @@ void wrong_divisor(const AuditSubject& subject, FindingCollector& findings) {
         // The ratio of u to what it was made from says which slip it was: most of them are one division or root too
         // many or too few.
         const NamedRatio* ratio = named(k_ratios, row, half_width);
+        // In the words alone a number that no slip makes to u is that of something else: "power supply (230 ± 5) V" in mV.
+        const double decades = std::log10(expected / row.used_u);
+        const bool is_decimal_slip = std::abs(decades) > 0.5 && std::abs(decades - std::round(decades)) < 0.005;
+        const bool is_by_root = is_about(row.used_u, half_width / k_root_3);
+        if (ratio == nullptr && !row.stated && !is_decimal_slip && !is_by_root) {
+            return;
+        }
         const bool right_divisor =
             row.divisor && std::abs(row.divisor->value - divisor) <= row.divisor->half_step + 0.01 * divisor;
         if (!slip && (columns_divide_by(row, divisor) || (right_divisor && ratio == nullptr))) {
@@ -319,6 +326,23 @@ bool is_of_several(const AuditedRow& row, double U) {
                           "2 x ", "2 × ", "2×", "2x", "added linearly", "linear addiert"});
 }
 
+/// U of the columns where the words state its k alone, "Standard, certificate (k = 2.65)", and the table divides it by another one.
+/// What is divided by a root is a limit; 1 divides what has been divided, and 1.96 is near enough to a k of 2.
+std::optional<double> divided_by_other_k(const AuditedRow& row) {
+    constexpr double k_least = 1.5, k_near = 0.03;
+    const bool may_be_U = row.shape == Shape::normal || row.shape == Shape::student_t || row.shape == Shape::not_stated;
+    if (!row.stated || !row.divisor || !row.certificate_k || !may_be_U || row.divisor->value < k_least ||
+        is_about(row.divisor->value, *row.certificate_k, k_near)) {
+        return std::nullopt;
+    }
+    for (const double root : {3.0, 6.0, 12.0}) {
+        if (is_about(row.divisor->value, std::sqrt(root), 1e-3)) {
+            return std::nullopt;
+        }
+    }
+    return std::abs(row.stated->value);
+}
+
 /// U13
 void certificate_by_wrong_k(const AuditSubject& subject, FindingCollector& findings) {
     static const std::array<NamedRatio, 5> k_ratios = {{
@@ -330,11 +354,12 @@ void certificate_by_wrong_k(const AuditSubject& subject, FindingCollector& findi
     }};
     for_each_row(subject, [&findings](const RowAt& at) {
         const AuditedRow& row = at.is;
-        if (row.origin != Origin::certificate || !row.origin_value || !row.certificate_k ||
-            !(*row.origin_value > 0.0) || !(*row.certificate_k > 0.0)) {
+        const std::optional<double> stated = row.origin_value ? row.origin_value : divided_by_other_k(row);
+        if (row.origin != Origin::certificate || !stated || !row.certificate_k || !(*stated > 0.0) ||
+            !(*row.certificate_k > 0.0)) {
             return;
         }
-        const double U = *row.origin_value, k = *row.certificate_k;
+        const double U = *stated, k = *row.certificate_k;
         // U with one digit leaves much open, but not by what the table divides it.
         const bool other_divisor = row.divisor && row.stated && is_about(row.stated->value, U, 1e-9) &&
                                    std::abs(row.divisor->value - k) > row.divisor->half_step + 0.01 * k &&
@@ -376,6 +401,13 @@ void certificate_without_k(const AuditSubject& subject, FindingCollector& findin
                                 row.shape == Shape::arcsine || row.shape == Shape::trapezoidal;
         if (row.origin != Origin::certificate || row.certificate_k || row.certificate_probability || row.divisor ||
             has_limits) {
+            return;
+        }
+        // What a certificate states as a standard uncertainty has no k, and a drift between two certificates is no U.
+        const bool is_standard =
+            row.origin_value && is_about(row.used_u, *row.origin_value) &&
+            mentions(row, {"standard uncertainty", "standardunsicherheit", "standardmessunsicherheit"});
+        if (is_standard || row.contributor == Contributor::reference_drift) {
             return;
         }
         const bool halved = row.origin_value && is_about(row.used_u, 0.5 * *row.origin_value);
