@@ -28,7 +28,8 @@ bool names_reference(const WordLine& words) {
                           "normals ",        "normale ",    "ref ",       "bezugsnormal",
                           "gebrauchsnormal", "gauge block", "gage block", "endmass",
                           "parallelendmass", "calibrator",  "kalibrator", "comparator",
-                          "komparator",      "laser",       "cmm ",       "kmg "});
+                          "komparator",      "laser",       "cmm ",       "kmg ",
+                          "patron ",         "etalon ",     "*標準器",    "*标准器"});
 }
 bool names_item(const WordLine& words) {
     return words.has_any({"dut ", "uut ", "iut ", "item", "prufling", "pruefling", "kalibriergegenstand",
@@ -46,9 +47,10 @@ Contributor kind_of_effect(const WordLine& words, std::string_view raw) {
         (words.has_any({"wavelength", "wellenlange"}) && !words.has_any({"vacuum", "vakuum", "laser"}))) {
         return Contributor::refractive_index;
     }
-    if (words.has_any({"resolut", "auflos", "aufloes", "ziffernschritt", "readab", "ablesbar", "skalenteil",
-                       "skalenwert", "teilungswert", "least count", "scale interval", "scale division", "digitis",
-                       "digitiz", "quantis", "quantiz"})) {
+    if (words.has_any({"resolut",        "auflos",         "aufloes",    "ziffernschritt", "readab",
+                       "ablesbar",       "skalenteil",     "skalenwert", "teilungswert",   "least count",
+                       "scale interval", "scale division", "digitis",    "digitiz",        "quantis",
+                       "quantiz",        "resoluc",        "*解析度",    "*分辨力",        "*分辨率"})) {
         return names_reference(words) ? Contributor::reference_resolution : Contributor::item_resolution;
     }
     if (words.has_any({"bath ",        "bad ",       "badhomogen", "furnace",          "ofen",     "chamber",
@@ -59,18 +61,24 @@ Contributor kind_of_effect(const WordLine& words, std::string_view raw) {
                    ? Contributor::temperature
                    : Contributor::environment;
     }
-    if (words.has_any({"drift", "stability", "instability", "stabilitat", "instabilitat", "langzeit", "long term",
-                       "ageing", "aging", "alterung", "since last", "since the last", "since its", "seit letzter",
-                       "seit der letzten", "seit seiner", "seit ihrer"})) {
+    if (words.has_any({"drift",       "stability",      "instability", "stabilitat",   "instabilitat",
+                       "langzeit",    "long term",      "ageing",      "aging",        "alterung",
+                       "since last",  "since the last", "since its",   "seit letzter", "seit der letzten",
+                       "seit seiner", "seit ihrer",     "deriva ",     "derive ",      "*漂移",
+                       "*穩定性",     "*稳定性"})) {
         return names_item(words) ? Contributor::item : Contributor::reference_drift;
     }
     if (words.has_any({"reproducib", "reproduzier", "vergleichprazision", "vergleichsprazision", "intermediate prec",
-                       "operator", "bediener", "day to day", "between days", "zwischen den tagen", "seating"})) {
+                       "operator", "bediener", "day to day", "between days", "zwischen den tagen", "seating", "*再現性",
+                       "*重現性", "*复现性"})) {
         return Contributor::reproducibility;
     }
-    if (words.has_any({"repeatab", "repetib", "wiederhol", "standard deviation", "standardabweich", "std dev", "stdev",
-                       "scatter", "streuung", "random", "zufallig", "repeated readings", "repeated meas", "readings",
-                       "mean of", "mittel aus", "mittelwert von", "type a"})) {
+    if (words.has_any({"repeatab",        "repetib",  "wiederhol", "standard deviation",
+                       "standardabweich", "std dev",  "stdev",     "scatter",
+                       "streuung",        "random",   "zufallig",  "repeated readings",
+                       "repeated meas",   "readings", "mean of",   "mittel aus",
+                       "mittelwert von",  "type a",   "repetab",   "*重複性",
+                       "*重复性"})) {
         return Contributor::repeatability;
     }
     if (words.has_any({"fit ", "fitting", "residual", "regression", "interpol", "polynom", "ausgleich", "restabweich",
@@ -745,7 +753,7 @@ Shape shape_of(std::string_view text) {
     if (const Shape shape = shape_in_sentence(words); shape != Shape::not_stated) {
         return shape;
     }
-    if (words.has_any({"rec ", "uniform", "gleich", "square", "recht"})) {
+    if (words.has_any({"rec ", "uniform", "gleich", "square", "recht", "*矩形", "*均勻", "*均匀"})) {
         return Shape::rectangular;
     }
     // "t (9)" and "t, ν = 9" are "t"; "T" may be of a triangle.
@@ -757,10 +765,10 @@ Shape shape_of(std::string_view text) {
     if (words.has_any({"lognorm", "log norm"})) {
         return Shape::other;
     }
-    if (words.has_any({"normal", "norm ", "gaus", "n "})) {
+    if (words.has_any({"normal", "norm ", "gaus", "n ", "*常態", "*正態", "*正态"})) {
         return Shape::normal;
     }
-    if (words.has_any({"tri ", "dreieck"})) {
+    if (words.has_any({"tri ", "dreieck", "*三角"})) {
         return Shape::triangular;
     }
     if (words.has_any({"r "})) {  // as "N" beside it

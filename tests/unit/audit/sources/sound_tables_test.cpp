@@ -179,7 +179,8 @@ TEST(SoundTables, AreNotAccusedOfUAloneByTheWordsOfItsRow) {
              {"Temperature (23 ± 2) °C, coefficient 0.05 mV/K", "rectangular", 0.1 / root_3},
              {"Power supply (230 ± 5) V", "rectangular", 0.01 / root_3},
              {"Half of the resolution 0.1 mV", "rectangular", 0.1 / root_3},
-             {"Half of the resolution 0.1 mV", "rectangular", 0.05 / root_3}}) {
+             {"Half of the resolution 0.1 mV", "rectangular", 0.05 / root_3},
+             {"標準器漂移 0.2 mV", "矩形", 0.1}}) {
         const AuditReport report = with(words, distribution, u);
         for (const char* const rule : {"U08", "U09", "U14"}) {
             EXPECT_FALSE(has(report, rule)) << rule << ": " << words;
