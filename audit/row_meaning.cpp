@@ -10,6 +10,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -578,36 +579,120 @@ std::optional<double> only_number(const Pieces& pieces, const AuditedRow& row) {
     return only;
 }
 
-/// Whether a text says that a number in it is half of something: "half of the digit: 50 mV", "Resolution/2 = 50 mV", "± 50 mV",
-/// "50 mV (half of 100 mV)"; or a bound of so many steps, "±1 digit = 50 mV".
-bool is_said_to_be_half(const Pieces& pieces, const AuditedRow& row, double number) {
-    constexpr double k_half = 0.5, k_same = 1e-9;
-    const auto is_half_word = [](const Piece& piece) {
-        return piece.kind == Piece::Kind::word &&
-               (piece.raw.starts_with("½") || piece.word == "media" || piece.word == "medio" || piece.begins("half") ||
-                piece.begins("halb") || piece.begins("semi") || piece.begins("demi"));
+bool begins_any(const Piece& piece, std::initializer_list<std::string_view> beginnings) {
+    return std::any_of(beginnings.begin(), beginnings.end(),
+                       [&piece](std::string_view beginning) { return piece.begins(beginning); });
+}
+
+/// The next piece that is no article and no sign: "digit" behind "half" of "half of the last digit"; nullptr at the end.
+const Piece* next_noun(const Pieces& pieces, std::size_t place) {
+    constexpr std::array<std::string_view, 19> k_between{
+        "of",  "the", "a",   "an",   "der",   "des",      "eines",     "einer",   "de", "la",
+        "del", "du",  "von", "last", "least", "smallest", "kleinsten", "letzten", "x"};
+    for (std::size_t i = place + 1; i < pieces.size(); ++i) {
+        const bool is_between = pieces[i].kind == Piece::Kind::sign
+                                    ? !ends_sentence(pieces[i]) && !pieces[i].is_sign(",") && !pieces[i].is_sign(":")
+                                    : std::find(k_between.begin(), k_between.end(), pieces[i].word) != k_between.end();
+        if (!is_between) {
+            return &pieces[i];
+        }
+    }
+    return nullptr;
+}
+bool names_step(const Piece* noun) {
+    return noun != nullptr && (noun->word == "d" ||
+                               begins_any(*noun, {"digit", "ziffer", "step", "schritt", "lsd", "lsb", "count", "resol",
+                                                  "auflos", "aufloes", "division", "skalenteil", "teilung", "interval",
+                                                  "increment", "inkrement", "graduation", "paso", "escalon"}));
+}
+
+/// Whether a word says that what it stands beside is half of a step. "Half load", "Halblast" and "semiconductor" are of
+/// something else, and the half of "4½ digits" is part of a count.
+bool says_half(const Pieces& pieces, std::size_t place) {
+    const Piece& piece = pieces[place];
+    if (piece.kind != Piece::Kind::word) {
+        return false;
+    }
+    if (piece.raw.starts_with("½")) {
+        return place == 0 || !pieces[place - 1].is_number();
+    }
+    const Piece* noun = next_noun(pieces, place);
+    const bool is_condition = place > 0 && pieces[place - 1].kind == Piece::Kind::word &&
+                              (pieces[place - 1].word == "at" || pieces[place - 1].word == "bei" ||
+                               pieces[place - 1].word == "im" || pieces[place - 1].word == "in");
+    if (is_condition) {
+        return false;
+    }
+    const auto is_width = [](std::string_view word) {
+        for (const std::string_view width : {"range", "width", "span", "ancho", "amplit", "interv", "etendue",
+                                             "largeur", "weite", "breite", "schritt", "ziffer", "digit"}) {
+            if (word.starts_with(width)) {
+                return true;
+            }
+        }
+        return false;
     };
+    if (piece.word == "media" || piece.word == "medio") {
+        return names_step(noun);
+    }
+    for (const std::string_view part : {"semi", "demi"}) {
+        if (piece.begins(part)) {
+            const std::string_view rest = std::string_view(piece.word).substr(part.size());
+            return rest.empty() ? names_step(noun) || (noun != nullptr && is_width(noun->word)) : is_width(rest);
+        }
+    }
+    for (const std::string_view part : {"half", "halb"}) {
+        if (piece.begins(part)) {
+            const std::string_view rest = std::string_view(piece.word).substr(part.size());
+            const bool is_alone =
+                rest.empty() || rest == "e" || rest == "er" || rest == "en" || rest == "es" || rest == "em";
+            return is_alone ? noun == nullptr ||
+                                  !begins_any(*noun, {"load", "full", "scale", "hour", "year", "day", "month", "speed",
+                                                      "bridge", "wave", "capacity", "skala", "stunde", "jahr", "bruck"})
+                            : is_width(rest);
+        }
+    }
+    return false;
+}
+
+/// What words say that a number in them is: the step of a display, half of it, or a bound of so many steps.
+enum class SaidOfStep { whole, half, bound };
+
+/// "half of the digit: 50 mV", "Resolution/2 = 50 mV", "± 50 mV", "50 mV (half of 100 mV)" are half; "±1 digit = 50 mV" is a bound.
+SaidOfStep said_of_step(const Pieces& pieces, const AuditedRow& row, double number) {
+    constexpr double k_half = 0.5, k_same = 1e-9, k_few_digits = 2.0;
     const auto is_number = [&](const Piece& piece, double wanted) {
         const std::optional<NumberOfRow> held =
             piece.is_number() ? in_unit_of_row(piece, row) : std::optional<NumberOfRow>();
         return held && std::abs(held->value - wanted) <= k_same * wanted;
+    };
+    // "Resolution/2" and "1/2 digit", and not "4 1/2 digits", "channel 1/2".
+    const auto is_over_two = [&pieces](std::size_t j) {
+        if (pieces[j].value != 2.0 || j == 0 || !pieces[j - 1].is_sign("/")) {
+            return false;
+        }
+        if (j < 2 || !pieces[j - 2].is_number()) {
+            return true;
+        }
+        return pieces[j - 2].value == 1.0 && (j < 3 || !pieces[j - 3].is_number()) && names_step(next_noun(pieces, j));
     };
     for (std::size_t i = 0; i < pieces.size(); ++i) {
         if (!is_number(pieces[i], number)) {
             continue;
         }
         if (pieces[i].plus_minus) {
-            return true;
+            return SaidOfStep::half;
         }
         for (std::size_t j = i; j-- > 0 && !ends_sentence(pieces[j]);) {
-            const bool is_over_two =
-                pieces[j].is_number() && pieces[j].value == 2.0 && j > 0 && pieces[j - 1].is_sign("/");
-            const bool counts_digits = pieces[j].is_number() && j + 1 < i &&
-                                       (pieces[j + 1].begins("digit") || pieces[j + 1].begins("ziffer") ||
-                                        pieces[j + 1].begins("count") || pieces[j + 1].begins("lsd"));
-            if (is_half_word(pieces[j]) || is_over_two || counts_digits ||
-                (pieces[j].is_number() && pieces[j].value == k_half)) {
-                return true;
+            const bool is_half_number =
+                pieces[j].is_number() && pieces[j].value == k_half && names_step(next_noun(pieces, j));
+            if (says_half(pieces, j) || is_half_number || (pieces[j].is_number() && is_over_two(j))) {
+                return SaidOfStep::half;
+            }
+            // Six digits are those of a display, and no bound.
+            if (pieces[j].is_number() && j + 1 < i && (pieces[j].plus_minus || pieces[j].value <= k_few_digits) &&
+                begins_any(pieces[j + 1], {"digit", "ziffer", "count", "lsd"})) {
+                return SaidOfStep::bound;
             }
             const std::optional<NumberOfRow> other =
                 pieces[j].is_number() ? in_unit_of_row(pieces[j], row) : std::optional<NumberOfRow>();
@@ -615,30 +700,40 @@ bool is_said_to_be_half(const Pieces& pieces, const AuditedRow& row, double numb
                 break;  // "100 mV, half: 50 mV" begins with what it is half of
             }
         }
+        bool is_half = false;
         for (std::size_t j = i + 1; j < pieces.size() && !ends_sentence(pieces[j]); ++j) {
-            const bool is_whole = is_number(pieces[j], 2.0 * number);
-            if (is_whole && std::any_of(pieces.begin() + static_cast<std::ptrdiff_t>(i),
-                                        pieces.begin() + static_cast<std::ptrdiff_t>(j), is_half_word)) {
-                return true;
+            if (is_half && is_number(pieces[j], 2.0 * number)) {
+                return SaidOfStep::half;
             }
+            is_half = is_half || says_half(pieces, j);
         }
     }
-    return false;
+    return SaidOfStep::whole;
 }
 
 /// The step of a resolution whose words state a number X. Where they say that it is half of the step, the step is 2 X; "half of the
-/// resolution 50 mV" may be half of 50 mV, too: then the columns tell, which hold 25 mV, or a u of 50 mV/√12.
+/// resolution 50 mV" may be half of 50 mV, too: then the columns tell, which hold 25 mV, or a u of 50 mV/√12, as they state it, divide
+/// it, or multiply it by c.
 double step_in_words(const AuditedRow& row, std::span<const Pieces> texts, double X) {
-    const bool is_half = std::any_of(texts.begin(), texts.end(),
-                                     [&](const Pieces& pieces) { return is_said_to_be_half(pieces, row, X); });
-    const auto holds = [X](const std::optional<StatedNumber>& number, double part) {
+    SaidOfStep said = SaidOfStep::whole;
+    for (const Pieces& pieces : texts) {
+        said = said == SaidOfStep::whole ? said_of_step(pieces, row, X) : said;
+    }
+    const auto is_part = [X](double number, double part) {
         constexpr double k_digits = 0.02;
-        return number && std::abs(std::abs(number->value) - part * X) <= k_digits * part * X;
+        return std::abs(std::abs(number) - part * X) <= k_digits * part * X;
     };
-    const double u_of_step = 1.0 / std::sqrt(12.0);
-    const bool is_of_X = holds(row.stated, 0.5) || holds(row.u, u_of_step) || holds(row.contribution, u_of_step) ||
-                         (!row.stated && holds(row.u, 0.5));
-    return is_half && !is_of_X ? 2.0 * X : X;
+    const auto u_is = [&](double part) {
+        const double c = row.sensitivity ? row.sensitivity->value : 1.0;
+        return (row.u && is_part(row.u->value, part)) ||
+               (row.stated && row.divisor && row.divisor->value > 0.0 &&
+                is_part(row.stated->value / row.divisor->value, part)) ||
+               (row.contribution && c != 0.0 && is_part(row.contribution->value / c, part));
+    };
+    const bool is_of_X = u_is(1.0 / std::sqrt(12.0)) || (row.stated && is_part(row.stated->value, 0.5)) ||
+                         (!row.stated && row.u && is_part(row.u->value, 0.5)) ||
+                         (said == SaidOfStep::bound && u_is(2.0 / std::sqrt(3.0)));
+    return said != SaidOfStep::whole && !is_of_X ? 2.0 * X : X;
 }
 
 /// Distributions that a sentence names; "normal" alone is a measurement standard in German.

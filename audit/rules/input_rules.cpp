@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "audit/comment_pieces.h"
 #include "audit/row_facts.h"
 #include "audit/row_meaning.h"
 #include "audit/rules/registry.h"
@@ -326,19 +327,38 @@ bool is_of_several(const AuditedRow& row, double U) {
                           "2 x ", "2 × ", "2×", "2x", "added linearly", "linear addiert"});
 }
 
-/// U of the columns where the words state its k alone, "Standard, certificate (k = 2.65)", and the table divides it by another one.
-/// What is divided by a root is a limit; 1 divides what has been divided, and 1.96 is near enough to a k of 2.
+/// U of the columns where the words state its k alone, "Standard, certificate (k = 2.65)", and the table divides it by another one:
+/// by a usual k that the words do not name. A root is of a limit or of several, k times a number of several; 1 divides what has been
+/// divided, and 1.96 is near enough to a k of 2.
 std::optional<double> divided_by_other_k(const AuditedRow& row) {
-    constexpr double k_least = 1.5, k_near = 0.03;
+    constexpr double k_near = 0.03, k_digits = 0.002;
+    constexpr std::array k_usual{1.645, 1.65, 1.96, 2.0, 2.576, 2.58, 3.0};
     const bool may_be_U = row.shape == Shape::normal || row.shape == Shape::student_t || row.shape == Shape::not_stated;
-    if (!row.stated || !row.divisor || !row.certificate_k || !may_be_U || row.divisor->value < k_least ||
-        is_about(row.divisor->value, *row.certificate_k, k_near)) {
+    if (!row.stated || !row.divisor || !row.certificate_k || !(*row.certificate_k > 0.0) || !may_be_U) {
         return std::nullopt;
     }
-    for (const double root : {3.0, 6.0, 12.0}) {
-        if (is_about(row.divisor->value, std::sqrt(root), 1e-3)) {
-            return std::nullopt;
-        }
+    const double divisor = row.divisor->value, k = *row.certificate_k;
+    const bool is_usual = std::any_of(k_usual.begin(), k_usual.end(),
+                                      [divisor](double usual) { return is_about(divisor, usual, k_digits); });
+    const double squared = divisor * divisor / (k * k);
+    const bool is_multiple = squared > 1.5 && is_about(squared, std::round(squared), 2.0 * k_digits);
+    if (!is_usual || is_multiple || is_about(divisor, k, k_near)) {
+        return std::nullopt;
+    }
+    // Another k, or how one came from the other.
+    const Pieces pieces = pieces_of(words_of_row(row) + "; " + row.description, row.decimal_sign);
+    const auto symbols =
+        std::count_if(pieces.begin(), pieces.end(), [](const Piece& piece) { return piece.raw == "k"; });
+    const bool is_named = std::any_of(pieces.begin(), pieces.end(), [divisor](const Piece& piece) {
+        return piece.is_number() && is_about(std::abs(piece.value), divisor, k_digits);
+    });
+    constexpr double k_usual_p = 0.96;  // "(k = 2), 99 % limits"
+    if (symbols > 1 || is_named || row.certificate_probability.value_or(0.0) > k_usual_p ||
+        mentions(row, {"convert", "recalc",  "umgerechn", "umrechn", "halved",  "half",    "halb",  "pair",
+                       "paar",    "piece",   "stück",     "mean",    "average", "mittel",  " each", "both",
+                       "two ",    "three ",  "zwei ",     "drei ",   "beide",   "jeweils", "share", "anteil",
+                       "several", "mehrere", "limit",     "toleran", "grenz"})) {
+        return std::nullopt;
     }
     return std::abs(row.stated->value);
 }

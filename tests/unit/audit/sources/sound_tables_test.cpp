@@ -193,11 +193,46 @@ TEST(SoundTables, AreNotAccusedOfUAloneByTheWordsOfItsRow) {
     EXPECT_TRUE(has(with("Resolution 0.1 mV", "rectangular", 0.1 / root_3), "U09"));
 }
 
+/// Of a table without a column of u: 1 mV over √12, times c = 2. What stands before the number is no half of it.
+TEST(SoundTables, AreNotAccusedOfAStepByTheirContributions) {
+    const auto with = [](const std::string& words, double divisor) {
+        const double part = 2.0 / divisor;
+        return audited_text("Quantity;Unit;U or a;Distribution;Divisor;c_i;Contribution\n" + words +
+                            ";mV;1;rectangular;" + text::significant(divisor, 4) + ";2;" + text::significant(part, 4) +
+                            "\nRepeatability;mV;0.5;normal;1;1;0.5\nu_c;mV;;;;;" +
+                            text::significant(std::hypot(part, 0.5), 4) + "\n");
+    };
+    const auto with_contribution = [](const std::string& words, double divisor) {
+        const double part = 2.0 / divisor;
+        return audited_text("Quantity;Unit;Distribution;c_i;Contribution\n" + words + ";mV;rectangular;2;" +
+                            text::significant(part, 4) + "\nRepeatability;mV;normal;1;0.5\nu_c;mV;;;" +
+                            text::significant(std::hypot(part, 0.5), 4) + "\n");
+    };
+    for (const char* const words :
+         {"Resolution, 6 digits: 1 mV", "Resolution, 4 1/2 digit: 1 mV", "Resolution 3½ digit display, 1 mV",
+          "Half scale, resolution 1 mV", "Resolution at half load, 1 mV", "Auflösung im Halblastpunkt 1 mV",
+          "Resolution of DVM range 0.5 V: 1 mV", "Resolution 0.5 ppm, 1 mV", "Resolution of two readings 1/2, 1 mV",
+          "Resolution ±1 mV"}) {
+        for (const AuditReport& report : {with(words, std::sqrt(12.0)), with_contribution(words, std::sqrt(12.0))}) {
+            EXPECT_FALSE(has(report, "U09")) << words;
+            EXPECT_FALSE(has(report, "W02")) << words;
+        }
+    }
+    // What is half of a step is so beside c, too; and a step over √3 is found by what it is.
+    EXPECT_FALSE(has(with_contribution("Half of the digit: 1 mV", std::sqrt(3.0)), "U09"));
+    for (const char* const words : {"Resolution, 6 digits: 1 mV", "Resolution of DVM range 0.5 V: 1 mV",
+                                    "Resolution at half load, 1 mV", "Semiconductor sensor, resolution 1 mV"}) {
+        const AuditReport report = with_contribution(words, std::sqrt(3.0));
+        EXPECT_TRUE(has(report, "U09")) << words;
+        EXPECT_NEAR(report.results.at(0).audited.u_c, std::hypot(2.0 / std::sqrt(12.0), 0.5), 0.002) << words;
+    }
+}
+
 /// k of a certificate stands in the name of the row, U and the divisor in its columns.
 TEST(SoundTables, AreDividedByTheKInTheNameOfARow) {
     const auto with = [](const std::string& name, const std::string& divisor) {
         const double u = 0.53 / std::stod(divisor), u_c = std::hypot(u, 0.173, 0.11);
-        return audited_text("Quantity,Unit,Value ±,Divisor,u\n" + name + ",mV,0.53," + divisor + "," +
+        return audited_text("Quantity,Unit,Value ±,Divisor,u\n\"" + name + "\",mV,0.53," + divisor + "," +
                             text::significant(u, 3) + "\nDrift,mV,0.30,1.732,0.173\nLoading,mV,0.11,1,0.11\nu_c,mV,,," +
                             text::significant(u_c, 3) + "\nU (k = 2),mV,,," + text::significant(2.0 * u_c, 2) + "\n");
     };
@@ -206,9 +241,20 @@ TEST(SoundTables, AreDividedByTheKInTheNameOfARow) {
                                                           {"Standard certificate (k = 2)", "1.96"},
                                                           {"Standard certificate (k = 2)", "1.7321"},
                                                           {"Standard certificate (k = 2)", "1"},
+                                                          {"Certificate (k = 3), U converted to k = 2", "2"},
+                                                          {"Certificate k = 3, here U for k = 2", "2"},
+                                                          {"Two weights, certificate (k = 3)", "2"},
+                                                          {"Certificate (k = 2.65), U recalculated to 95 %", "2"},
+                                                          {"Weights, 5 pieces, certificate k = 2", "4.472"},
+                                                          {"Certificate of gauge block pair (k = 2)", "2.828"},
+                                                          {"Certificate (k = 2), share of 1/2", "4"},
+                                                          {"Certificate EX-17 (k = 2)", "2000"},
+                                                          {"Certificate (k = 2), 99 % limits", "2.576"},
+                                                          {"Certificate with k = 2, tolerance limits", "3"},
                                                           {"Standard", "3"}}) {
         EXPECT_FALSE(has(with(name, divisor), "U13")) << name << divisor;
     }
+    EXPECT_TRUE(has(with("Standard certificate (k = 2)", "3"), "U13"));
     const AuditReport report = with("Standard certificate (k = 2.65)", "2");
     EXPECT_TRUE(has(report, "U13"));
     EXPECT_NEAR(report.results.at(0).audited.U, 2.0 * std::hypot(0.2, 0.173, 0.11), 0.01);
