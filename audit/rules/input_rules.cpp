@@ -307,6 +307,13 @@ void specification_without_evidence(const AuditSubject& subject, FindingCollecto
                              "zertifikat", "inspect", "checked", "tested"})) {
             return;
         }
+        if (at.of.in_other_language) {
+            findings.leave_unchecked(
+                say("{table}: words of rows are read in English and German, and the heads of the table are of another "
+                    "language",
+                    at.is.place));
+            return;
+        }
         AuditFinding finding = finding_at(
             at, "", say("a specification is used, and nothing says that the instrument was found to conform to it"));
         finding.evidence = {equals("u", in_words(at.is.used_u, at.is.unit))};
@@ -428,6 +435,13 @@ void certificate_without_k(const AuditSubject& subject, FindingCollector& findin
             row.origin_value && is_about(row.used_u, *row.origin_value) &&
             mentions(row, {"standard uncertainty", "standardunsicherheit", "standardmessunsicherheit"});
         if (is_standard || row.contributor == Contributor::reference_drift) {
+            return;
+        }
+        if (at.of.in_other_language) {
+            findings.leave_unchecked(
+                say("{table}: words of rows are read in English and German, and the heads of the table are of another "
+                    "language",
+                    at.is.place));
             return;
         }
         const bool halved = row.origin_value && is_about(row.used_u, 0.5 * *row.origin_value);

@@ -663,6 +663,30 @@ std::optional<Column> column_word(std::string_view text) {
     return column ? column : meaning_of_letters<k_further_column_words>(letters);
 }
 
+}  // namespace
+
+bool is_of_other_language(std::string_view head) {
+    const std::u32string letters = certificate::letters_of(head);
+    constexpr char32_t k_first_ideograph = U'\u3400', k_last_ideograph = U'\u9FFF';
+    if (std::any_of(letters.begin(), letters.end(),
+                    [](char32_t letter) { return letter >= k_first_ideograph && letter <= k_last_ideograph; })) {
+        return true;
+    }
+    constexpr std::array<std::u32string_view, 20> k_parts{
+        U"incertidumbre", U"incertitude", U"sensibilidad", U"sensibilite", U"contribucion",
+        U"distribucion",  U"coeficiente", U"unidad",       U"grandeur",    U"diviseur",
+        U"valeur",        U"composante",  U"estimacion",   U"semiancho",   U"semiintervalo",
+        U"demietendue",   U"demilargeur", U"tolerancia",   U"degresdelib", U"gradosdelib"};
+    constexpr std::array<std::u32string_view, 12> k_whole{U"magnitud", U"componente", U"fuente", U"valor",
+                                                          U"unite",    U"loi",        U"origen", U"origine",
+                                                          U"simbolo",  U"symbole",    U"limite", U"descripcion"};
+    return std::find(k_whole.begin(), k_whole.end(), letters) != k_whole.end() ||
+           std::any_of(k_parts.begin(), k_parts.end(),
+                       [&letters](std::u32string_view part) { return letters.find(part) != std::u32string::npos; });
+}
+
+namespace {
+
 /// What stands before a unit or explanation in brackets: "u(xi) [µm]" and "U95 (k=2)" begin with what they are.
 std::string_view without_brackets(std::string_view text) {
     const std::size_t square = text.find('[');
@@ -1173,17 +1197,50 @@ std::string_view factor_of_u(std::string_view product) {
 
 constexpr std::string_view k_signs_of_product[] = {"·", "×", "*", "⋅", "x "};
 
-/// 2 of "k · u(y) = 2 × 37.7 mg", as EA-4/02 writes U; empty where no such product of numbers follows.
-std::string_view factor_in_numbers(std::string_view product) {
+/// What k is in a product of numbers.
+struct FactorInNumbers {
+    std::string_view k;    ///< empty where none is known
+    bool is_open = false;  ///< one of the numbers is k, and nothing says which
+};
+
+/// 2 of "k · u(y) = 2 × 37.7 mg", as EA-4/02 writes U; of "k·u_c = 0.0651·2", too, where u is no k. Nothing where no product of
+/// numbers follows.
+FactorInNumbers factor_in_numbers(std::string_view product) {
     const std::size_t sign = product.find('=');
     std::string_view numbers = sign == std::string_view::npos ? std::string_view() : trimmed(product.substr(sign + 1));
-    const std::string_view factor = numbers.substr(0, numbers.find_first_not_of("0123456789.,"));
-    numbers = trimmed(numbers.substr(factor.size()));
+    const auto leading = [](std::string_view text) { return text.substr(0, text.find_first_not_of("0123456789.,")); };
+    const auto value_of = [](std::string_view digits) {
+        const std::optional<StatedNumber> number = read_number(std::string(digits), "");
+        return number ? number->value : 0.0;
+    };
+    const auto may_be_k = [](double number) { return number >= 1.0 && number <= 14.0; };
+    const auto is_usual_k = [](double number) {
+        constexpr std::array k_usual{1.64, 1.645, 1.65, 1.96, 2.0, 2.576, 2.58, 3.0};
+        return std::find(k_usual.begin(), k_usual.end(), number) != k_usual.end();
+    };
+    const std::string_view first = leading(numbers);
+    numbers = trimmed(numbers.substr(first.size()));
     for (const std::string_view times : k_signs_of_product) {
-        if (!factor.empty() && numbers.starts_with(times)) {
-            const std::string_view second = trimmed(numbers.substr(times.size()));
-            return !second.empty() && is_of_number(second.front()) ? factor : std::string_view();
+        if (first.empty() || !numbers.starts_with(times)) {
+            continue;
         }
+        const std::string_view rest = trimmed(numbers.substr(times.size())), second = leading(rest);
+        const double one = value_of(first), other = value_of(second);
+        if (second.empty()) {  // "2 × (0.05² + 0.03²)^(1/2)", "2 × √0.0034 mV"
+            const bool is_sum = rest.starts_with('(') || rest.starts_with("√") || rest.starts_with("sqrt");
+            return {.k = is_sum && may_be_k(one) ? first : std::string_view(), .is_open = is_sum && !may_be_k(one)};
+        }
+        const std::string_view behind = trimmed(rest.substr(second.size()));
+        const bool has_unit = !behind.empty() && !behind.starts_with('=') && !behind.starts_with("≅") &&
+                              !behind.starts_with("≈") && !behind.starts_with("≃");
+        if (may_be_k(one) &&
+            (has_unit || !may_be_k(other) || one == other || (is_usual_k(one) && !is_usual_k(other)))) {
+            return {.k = first};
+        }
+        if (!has_unit && may_be_k(other) && (!may_be_k(one) || (is_usual_k(other) && !is_usual_k(one)))) {
+            return {.k = second};
+        }
+        return {.k = {}, .is_open = true};
     }
     return {};
 }
@@ -1330,9 +1387,11 @@ std::optional<NamedStatement> statement_named(std::string_view name, bool may_ha
             if ((whole && whole->statement == Statement::U) || symbol.starts_with("U(") || symbol == "U_95") {
                 const std::string said(with == std::string_view::npos ? std::string_view() : behind.substr(with));
                 const bool is_symbol_of_k = factor.front() == 'k' || factor.front() == 't';
-                const std::string_view k = is_symbol_of_k ? factor_in_numbers(product) : factor;
+                const FactorInNumbers k = is_symbol_of_k ? factor_in_numbers(product) : FactorInNumbers{.k = factor};
+                // Where the product has k and nobody can tell which number it is, k is stated all the same.
+                const std::string in_product(k.is_open && said.empty() ? trimmed(product) : std::string_view());
                 return NamedStatement{.statement = Statement::U,
-                                      .coverage = k.empty() ? said : "k = " + std::string(k) + said,
+                                      .coverage = k.k.empty() ? said + in_product : "k = " + std::string(k.k) + said,
                                       .assigned = std::string(number_at_end(product))};
             }
         }

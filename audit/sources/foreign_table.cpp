@@ -288,6 +288,7 @@ private:
             title_ = number <= line_above_ + k_near ? above_ : "";
             unit_in_words_ = number <= line_of_unit_ + k_near ? unit_above_ : "";
             budget_.place = sheet_.place({.row = number, .column = row.front()->address.column});
+            budget_.in_other_language = budget_.in_other_language || heads_->in_other_language;
             return;
         }
         if (heads_ && is_near_ && !budget_.rows.empty() && is_words_alone(row)) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "audit/audit.h"
@@ -400,6 +401,57 @@ TEST(LayoutsOfTables, WithHeadsOfOtherLanguagesAndOfTwoLines) {
         EXPECT_TRUE(finds(undivided, "W02")) << layout.heads;
         EXPECT_NEAR(undivided.results.at(0).audited.U, 2.0 * std::hypot(5.0, 11.0 / root_3, 3.0), 0.06) << layout.heads;
     }
+}
+
+/// Words of rows are read in English and German: what rows of another language do not say in these, they are not accused of.
+TEST(LayoutsOfTables, WhatWordsOfOtherLanguagesDoNotSayIsNotChecked) {
+    const auto with = [](const std::string& heads, const std::vector<std::string>& names) {
+        std::string table = heads + "\n";
+        for (const std::string& name : names) {
+            table += name + ";mV;0.10;2;0.05\n";
+        }
+        return report_on(table + "u_c;;;;" + text::significant(0.05 * std::sqrt(names.size()), 4) + "\n");
+    };
+    for (const auto& [heads, names] : std::vector<std::pair<std::string, std::vector<std::string>>>{
+             {"Magnitud;Unidad;Semiancho;Divisor;Incertidumbre típica",
+              {"Patrón de referencia", "División de escala", "Operador", "Condiciones ambientales"}},
+             {"Grandeur;Unité;Incertitude;Diviseur;Incertitude-type",
+              {"Étalon de référence", "Fidélité", "Opérateur", "Conditions d'environnement"}},
+             {"不確定度來源;單位;半寬;除數;標準不確定度", {"标准器", "分辨力", "人员", "环境温度"}}}) {
+        const AuditReport report = with(heads, names);
+        ASSERT_EQ(report.results.size(), 1U) << heads;
+        for (const char* const rule : {"B01", "B02", "B04", "B05"}) {
+            EXPECT_FALSE(finds(report, rule)) << rule << heads;
+        }
+        EXPECT_TRUE(std::any_of(report.not_checked.begin(), report.not_checked.end(), [](const RuleNotChecked& rule) {
+            return rule.rule == "B01";
+        })) << heads;
+    }
+    const AuditReport english =
+        with("Quantity;Unit;Half-width;Divisor;Standard uncertainty", {"Reference standard", "Scale", "Loading"});
+    EXPECT_TRUE(finds(english, "B01"));
+    EXPECT_TRUE(finds(english, "B05"));
+}
+
+/// U as a product of numbers: k is the one that is no u.
+TEST(LayoutsOfTables, KOfAProductIsNoU) {
+    const auto with = [](const std::string& line) {
+        return report_on(
+            "Quantity;Unit;U or a;Distribution;Divisor;c_i;Contribution\nStandard;mV;0.10;normal;2;1;0.05\n"
+            "Resolution;mV;0.05;rectangular;1.732;1;0.02887\nRepeatability;mV;0.03;normal;1;1;0.03\n"
+            "u_c;mV;;;;;0.0651\n" +
+            line + ";;;;;;\n");
+    };
+    for (const char* const line : {"U = k·u_c = 0.0651·2 = 0.13 mV", "U = k × u_c = 0.0651 × 2.00 = 0.13 mV",
+                                   "U = k·u_c = 2·0.0651 mV = 0.13 mV", "U = k·u_c = 2·0.0651 = 0.13 mV",
+                                   "U = k · u(y) = 2 × (0.05² + 0.0289² + 0.03²)^(1/2) = 0.13 mV"}) {
+        const AuditReport report = with(line);
+        ASSERT_EQ(report.results.size(), 1U) << line;
+        EXPECT_EQ(report.results[0].claimed.k, 2.0) << line;
+        EXPECT_FALSE(finds(report, "K03")) << line;
+        EXPECT_FALSE(finds(report, "K01")) << line;
+    }
+    EXPECT_TRUE(finds(with("U = k·u_c = 2·0.0651 mV = 0.26 mV"), "K01"));
 }
 
 TEST(LayoutsOfTables, OfPublishedTables) {
