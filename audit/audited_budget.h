@@ -286,6 +286,9 @@ struct AuditedBudget {
     std::optional<StatedMonteCarlo> monte_carlo;
     /// Of a table: heads of columns of numbers that nobody understood. What does not follow may follow from them.
     std::vector<std::string> unread_columns = {};
+    /// Of a table: its heads are of another language than English and German, in which words of rows are read. What such a row does
+    /// not say in these, it may say.
+    bool in_other_language = false;
     /// Of a table: words in cells of rows where a number of the sum should stand. A line may have slipped by a column.
     std::vector<std::string> unread_cells = {};
     /// Correlation coefficients that it states, and nobody knows of which rows.

@@ -95,8 +95,12 @@ std::optional<std::pair<Piece, std::size_t>> number_piece(std::string_view text,
     piece.plus_minus = taken.find("±") != std::string_view::npos || taken.find("+/-") != std::string_view::npos ||
                        taken.find("+-") != std::string_view::npos;
     piece.plus = taken.starts_with('+') && !piece.plus_minus;
-    piece.unit = unit_behind(text.substr(end));
     std::string_view behind = text.substr(end);
+    if (piece.plus_minus && behind.starts_with(')')) {  // "(23 ± 2) °C" is no 2 of the unit of the row
+        behind.remove_prefix(1);
+        behind.remove_prefix(std::min(behind.find_first_not_of(' '), behind.size()));
+    }
+    piece.unit = unit_behind(behind);
     while (behind.starts_with(' ')) {
         behind.remove_prefix(1);
     }

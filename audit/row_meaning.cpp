@@ -11,6 +11,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -29,7 +30,8 @@ bool names_reference(const WordLine& words) {
                           "normals ",        "normale ",    "ref ",       "bezugsnormal",
                           "gebrauchsnormal", "gauge block", "gage block", "endmass",
                           "parallelendmass", "calibrator",  "kalibrator", "comparator",
-                          "komparator",      "laser",       "cmm ",       "kmg "});
+                          "komparator",      "laser",       "cmm ",       "kmg ",
+                          "patron ",         "etalon ",     "*標準器",    "*标准器"});
 }
 bool names_item(const WordLine& words) {
     return words.has_any({"dut ", "uut ", "iut ", "item", "prufling", "pruefling", "kalibriergegenstand",
@@ -47,9 +49,10 @@ Contributor kind_of_effect(const WordLine& words, std::string_view raw) {
         (words.has_any({"wavelength", "wellenlange"}) && !words.has_any({"vacuum", "vakuum", "laser"}))) {
         return Contributor::refractive_index;
     }
-    if (words.has_any({"resolut", "auflos", "aufloes", "ziffernschritt", "readab", "ablesbar", "skalenteil",
-                       "skalenwert", "teilungswert", "least count", "scale interval", "scale division", "digitis",
-                       "digitiz", "quantis", "quantiz"})) {
+    if (words.has_any({"resolut",        "auflos",         "aufloes",    "ziffernschritt", "readab",
+                       "ablesbar",       "skalenteil",     "skalenwert", "teilungswert",   "least count",
+                       "scale interval", "scale division", "digitis",    "digitiz",        "quantis",
+                       "quantiz",        "resoluc",        "*解析度",    "*分辨力",        "*分辨率"})) {
         return names_reference(words) ? Contributor::reference_resolution : Contributor::item_resolution;
     }
     if (words.has_any({"bath ",        "bad ",       "badhomogen", "furnace",          "ofen",     "chamber",
@@ -60,18 +63,24 @@ Contributor kind_of_effect(const WordLine& words, std::string_view raw) {
                    ? Contributor::temperature
                    : Contributor::environment;
     }
-    if (words.has_any({"drift", "stability", "instability", "stabilitat", "instabilitat", "langzeit", "long term",
-                       "ageing", "aging", "alterung", "since last", "since the last", "since its", "seit letzter",
-                       "seit der letzten", "seit seiner", "seit ihrer"})) {
+    if (words.has_any({"drift",       "stability",      "instability", "stabilitat",   "instabilitat",
+                       "langzeit",    "long term",      "ageing",      "aging",        "alterung",
+                       "since last",  "since the last", "since its",   "seit letzter", "seit der letzten",
+                       "seit seiner", "seit ihrer",     "deriva ",     "derive ",      "*漂移",
+                       "*穩定性",     "*稳定性"})) {
         return names_item(words) ? Contributor::item : Contributor::reference_drift;
     }
     if (words.has_any({"reproducib", "reproduzier", "vergleichprazision", "vergleichsprazision", "intermediate prec",
-                       "operator", "bediener", "day to day", "between days", "zwischen den tagen", "seating"})) {
+                       "operator", "bediener", "day to day", "between days", "zwischen den tagen", "seating", "*再現性",
+                       "*重現性", "*复现性"})) {
         return Contributor::reproducibility;
     }
-    if (words.has_any({"repeatab", "repetib", "wiederhol", "standard deviation", "standardabweich", "std dev", "stdev",
-                       "scatter", "streuung", "random", "zufallig", "repeated readings", "repeated meas", "readings",
-                       "mean of", "mittel aus", "mittelwert von", "type a"})) {
+    if (words.has_any({"repeatab",        "repetib",  "wiederhol", "standard deviation",
+                       "standardabweich", "std dev",  "stdev",     "scatter",
+                       "streuung",        "random",   "zufallig",  "repeated readings",
+                       "repeated meas",   "readings", "mean of",   "mittel aus",
+                       "mittelwert von",  "type a",   "repetab",   "*重複性",
+                       "*重复性"})) {
         return Contributor::repeatability;
     }
     if (words.has_any({"fit ", "fitting", "residual", "regression", "interpol", "polynom", "ausgleich", "restabweich",
@@ -571,6 +580,163 @@ std::optional<double> only_number(const Pieces& pieces, const AuditedRow& row) {
     return only;
 }
 
+bool begins_any(const Piece& piece, std::initializer_list<std::string_view> beginnings) {
+    return std::any_of(beginnings.begin(), beginnings.end(),
+                       [&piece](std::string_view beginning) { return piece.begins(beginning); });
+}
+
+/// The next piece that is no article and no sign: "digit" behind "half" of "half of the last digit"; nullptr at the end.
+const Piece* next_noun(const Pieces& pieces, std::size_t place) {
+    constexpr std::array<std::string_view, 19> k_between{
+        "of",  "the", "a",   "an",   "der",   "des",      "eines",     "einer",   "de", "la",
+        "del", "du",  "von", "last", "least", "smallest", "kleinsten", "letzten", "x"};
+    for (std::size_t i = place + 1; i < pieces.size(); ++i) {
+        const bool is_between = pieces[i].kind == Piece::Kind::sign
+                                    ? !ends_sentence(pieces[i]) && !pieces[i].is_sign(",") && !pieces[i].is_sign(":")
+                                    : std::find(k_between.begin(), k_between.end(), pieces[i].word) != k_between.end();
+        if (!is_between) {
+            return &pieces[i];
+        }
+    }
+    return nullptr;
+}
+bool names_step(const Piece* noun) {
+    return noun != nullptr && (noun->word == "d" ||
+                               begins_any(*noun, {"digit", "ziffer", "step", "schritt", "lsd", "lsb", "count", "resol",
+                                                  "auflos", "aufloes", "division", "skalenteil", "teilung", "interval",
+                                                  "increment", "inkrement", "graduation", "paso", "escalon"}));
+}
+
+/// Whether a word says that what it stands beside is half of a step. "Half load", "Halblast" and "semiconductor" are of
+/// something else, and the half of "4½ digits" is part of a count.
+bool says_half(const Pieces& pieces, std::size_t place) {
+    const Piece& piece = pieces[place];
+    if (piece.kind != Piece::Kind::word) {
+        return false;
+    }
+    if (piece.raw.starts_with("½")) {
+        return place == 0 || !pieces[place - 1].is_number();
+    }
+    const Piece* noun = next_noun(pieces, place);
+    const bool is_condition = place > 0 && pieces[place - 1].kind == Piece::Kind::word &&
+                              (pieces[place - 1].word == "at" || pieces[place - 1].word == "bei" ||
+                               pieces[place - 1].word == "im" || pieces[place - 1].word == "in");
+    if (is_condition) {
+        return false;
+    }
+    const auto is_width = [](std::string_view word) {
+        for (const std::string_view width : {"range", "width", "span", "ancho", "amplit", "interv", "etendue",
+                                             "largeur", "weite", "breite", "schritt", "ziffer", "digit"}) {
+            if (word.starts_with(width)) {
+                return true;
+            }
+        }
+        return false;
+    };
+    if (piece.word == "media" || piece.word == "medio") {
+        return names_step(noun);
+    }
+    for (const std::string_view part : {"semi", "demi"}) {
+        if (piece.begins(part)) {
+            const std::string_view rest = std::string_view(piece.word).substr(part.size());
+            return rest.empty() ? names_step(noun) || (noun != nullptr && is_width(noun->word)) : is_width(rest);
+        }
+    }
+    for (const std::string_view part : {"half", "halb"}) {
+        if (piece.begins(part)) {
+            const std::string_view rest = std::string_view(piece.word).substr(part.size());
+            const bool is_alone =
+                rest.empty() || rest == "e" || rest == "er" || rest == "en" || rest == "es" || rest == "em";
+            return is_alone ? noun == nullptr ||
+                                  !begins_any(*noun, {"load", "full", "scale", "hour", "year", "day", "month", "speed",
+                                                      "bridge", "wave", "capacity", "skala", "stunde", "jahr", "bruck"})
+                            : is_width(rest);
+        }
+    }
+    return false;
+}
+
+/// What words say that a number in them is: the step of a display, half of it, or a bound of so many steps.
+enum class SaidOfStep { whole, half, bound };
+
+/// "half of the digit: 50 mV", "Resolution/2 = 50 mV", "± 50 mV", "50 mV (half of 100 mV)" are half; "±1 digit = 50 mV" is a bound.
+SaidOfStep said_of_step(const Pieces& pieces, const AuditedRow& row, double number) {
+    constexpr double k_half = 0.5, k_same = 1e-9, k_few_digits = 2.0;
+    const auto is_number = [&](const Piece& piece, double wanted) {
+        const std::optional<NumberOfRow> held =
+            piece.is_number() ? in_unit_of_row(piece, row) : std::optional<NumberOfRow>();
+        return held && std::abs(held->value - wanted) <= k_same * wanted;
+    };
+    // "Resolution/2" and "1/2 digit", and not "4 1/2 digits", "channel 1/2".
+    const auto is_over_two = [&pieces](std::size_t j) {
+        if (pieces[j].value != 2.0 || j == 0 || !pieces[j - 1].is_sign("/")) {
+            return false;
+        }
+        if (j < 2 || !pieces[j - 2].is_number()) {
+            return true;
+        }
+        return pieces[j - 2].value == 1.0 && (j < 3 || !pieces[j - 3].is_number()) && names_step(next_noun(pieces, j));
+    };
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+        if (!is_number(pieces[i], number)) {
+            continue;
+        }
+        if (pieces[i].plus_minus) {
+            return SaidOfStep::half;
+        }
+        for (std::size_t j = i; j-- > 0 && !ends_sentence(pieces[j]);) {
+            const bool is_half_number =
+                pieces[j].is_number() && pieces[j].value == k_half && names_step(next_noun(pieces, j));
+            if (says_half(pieces, j) || is_half_number || (pieces[j].is_number() && is_over_two(j))) {
+                return SaidOfStep::half;
+            }
+            // Six digits are those of a display, and no bound.
+            if (pieces[j].is_number() && j + 1 < i && (pieces[j].plus_minus || pieces[j].value <= k_few_digits) &&
+                begins_any(pieces[j + 1], {"digit", "ziffer", "count", "lsd"})) {
+                return SaidOfStep::bound;
+            }
+            const std::optional<NumberOfRow> other =
+                pieces[j].is_number() ? in_unit_of_row(pieces[j], row) : std::optional<NumberOfRow>();
+            if (other && other->has_unit) {
+                break;  // "100 mV, half: 50 mV" begins with what it is half of
+            }
+        }
+        bool is_half = false;
+        for (std::size_t j = i + 1; j < pieces.size() && !ends_sentence(pieces[j]); ++j) {
+            if (is_half && is_number(pieces[j], 2.0 * number)) {
+                return SaidOfStep::half;
+            }
+            is_half = is_half || says_half(pieces, j);
+        }
+    }
+    return SaidOfStep::whole;
+}
+
+/// The step of a resolution whose words state a number X. Where they say that it is half of the step, the step is 2 X; "half of the
+/// resolution 50 mV" may be half of 50 mV, too: then the columns tell, which hold 25 mV, or a u of 50 mV/√12, as they state it, divide
+/// it, or multiply it by c.
+double step_in_words(const AuditedRow& row, std::span<const Pieces> texts, double X) {
+    SaidOfStep said = SaidOfStep::whole;
+    for (const Pieces& pieces : texts) {
+        said = said == SaidOfStep::whole ? said_of_step(pieces, row, X) : said;
+    }
+    const auto is_part = [X](double number, double part) {
+        constexpr double k_digits = 0.02;
+        return std::abs(std::abs(number) - part * X) <= k_digits * part * X;
+    };
+    const auto u_is = [&](double part) {
+        const double c = row.sensitivity ? row.sensitivity->value : 1.0;
+        return (row.u && is_part(row.u->value, part)) ||
+               (row.stated && row.divisor && row.divisor->value > 0.0 &&
+                is_part(row.stated->value / row.divisor->value, part)) ||
+               (row.contribution && c != 0.0 && is_part(row.contribution->value / c, part));
+    };
+    const bool is_of_X = u_is(1.0 / std::sqrt(12.0)) || (row.stated && is_part(row.stated->value, 0.5)) ||
+                         (!row.stated && row.u && is_part(row.u->value, 0.5)) ||
+                         (said == SaidOfStep::bound && u_is(2.0 / std::sqrt(3.0)));
+    return said != SaidOfStep::whole && !is_of_X ? 2.0 * X : X;
+}
+
 /// Distributions that a sentence names; "normal" alone is a measurement standard in German.
 Shape shape_in_sentence(const WordLine& words) {
     if (words.has_any({"rect ", "rectang", "rechteck", "*gleichverteil", "uniform distribut", "uniformly"})) {
@@ -699,7 +865,7 @@ Shape shape_of(std::string_view text) {
     if (const Shape shape = shape_in_sentence(words); shape != Shape::not_stated) {
         return shape;
     }
-    if (words.has_any({"rec ", "uniform", "gleich", "square", "recht"})) {
+    if (words.has_any({"rec ", "uniform", "gleich", "square", "recht", "*矩形", "*均勻", "*均匀"})) {
         return Shape::rectangular;
     }
     // "t (9)" and "t, ν = 9" are "t"; "T" may be of a triangle.
@@ -711,10 +877,10 @@ Shape shape_of(std::string_view text) {
     if (words.has_any({"lognorm", "log norm"})) {
         return Shape::other;
     }
-    if (words.has_any({"normal", "norm ", "gaus", "n "})) {
+    if (words.has_any({"normal", "norm ", "gaus", "n ", "*常態", "*正態", "*正态"})) {
         return Shape::normal;
     }
-    if (words.has_any({"tri ", "dreieck"})) {
+    if (words.has_any({"tri ", "dreieck", "*三角"})) {
         return Shape::triangular;
     }
     if (words.has_any({"r "})) {  // as "N" beside it
@@ -771,6 +937,16 @@ void read_comment(AuditedRow& row) {
             row.pooled_s = row.pooled_s ? row.pooled_s : pooled_deviation(pieces, row);
             row.origin_value = row.origin_value ? row.origin_value : deviation_of_readings(pieces, row);
         }
+    }
+    if ((row.origin == Origin::specification || row.origin == Origin::limits) && row.origin_value) {
+        for (const Pieces& pieces : texts) {  // "tolerance band 0.60 mV (±0.30 mV)"
+            const std::optional<double> half_width = plus_minus(pieces, row);
+            const bool is_half = half_width && std::abs(*row.origin_value - 2.0 * *half_width) <= 1e-9 * *half_width;
+            row.origin_value = is_half ? half_width : row.origin_value;
+        }
+    }
+    if (row.origin == Origin::resolution && row.origin_value) {
+        row.origin_value = step_in_words(row, texts, *row.origin_value);
     }
     if (row.origin_value && !(*row.origin_value > 0.0 && std::isfinite(*row.origin_value))) {
         row.origin_value.reset();  // "U = 0" says nothing of a size

@@ -369,10 +369,11 @@ std::string ProgramSentences::worded_list(const std::string& english, const std:
         const std::string item = english.substr(at, end - at);
         const bool known = find(item).has_value();
         out += (at == 0                 ? ""
+                : language == "en"      ? std::string(separator)
                 : language == "zh-Hant" ? (between_semicolons ? "；" : "、")
                                         : "; ") +
                (known                 ? worded(item, language, sign)
-                : may_be_number(item) ? with_decimal_sign(item, sign)
+                : may_be_number(item) ? with_decimal_sign(with_minus_of_numbers(item), sign)
                                       : item);
         at = end + separator.size();
     }
@@ -381,7 +382,8 @@ std::string ProgramSentences::worded_list(const std::string& english, const std:
 
 std::string ProgramSentences::worded(const std::string& english, const std::string& language,
                                      const std::string& sign) const {
-    if (language == "en") {
+    const bool as_it_is = language == "en";
+    if (as_it_is && with_minus_of_numbers(english) == english && english.find("= <") == std::string::npos) {
         return english;
     }
     std::string out;
@@ -393,12 +395,12 @@ std::string ProgramSentences::worded(const std::string& english, const std::stri
             continue;
         }
         const auto wording = found->pattern->translations.find(language);
-        if (wording == found->pattern->translations.end()) {
+        if (!as_it_is && wording == found->pattern->translations.end()) {
             out += text;
             continue;
         }
         const std::vector<Placeholder>& names = found->pattern->english.placeholders;
-        const Pieces& pieces = wording->second;
+        const Pieces& pieces = as_it_is ? found->pattern->english : wording->second;
         for (std::size_t i = 0; i < pieces.literals.size(); ++i) {
             out += pieces.literals[i];
             if (i == pieces.placeholders.size()) {
@@ -412,10 +414,10 @@ std::string ProgramSentences::worded(const std::string& english, const std::stri
             }
             const std::string& value = found->values[static_cast<std::size_t>(name - names.begin())];
             const bool is_numeric = name->kind == Kind::number || name->kind == Kind::count;
-            out += is_numeric                     ? with_decimal_sign(value, sign)
-                   : name->kind == Kind::sentence ? worded(value, language, sign)
-                   : name->kind == Kind::list     ? worded_list(value, language, sign)
-                                                  : value;
+            append_value(out, is_numeric                     ? with_decimal_sign(with_minus_of_numbers(value), sign)
+                              : name->kind == Kind::sentence ? worded(value, language, sign)
+                              : name->kind == Kind::list     ? worded_list(value, language, sign)
+                                                             : value);
         }
     }
     return out;

@@ -82,6 +82,25 @@ std::string with_power_of_ten(const std::string& text) {
     return out;
 }
 
+std::string with_minus_of_numbers(const std::string& text) {
+    std::string out;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const bool begins = i == 0 || (text[i - 1] == ' ' && i + 1 < text.size() && is_digit(text[i + 1]));
+        out += begins && text[i] == '-' ? std::string("\u2212") : std::string(1, text[i]);
+    }
+    return out;
+}
+
+void append_value(std::string& text, const std::string& value) {
+    constexpr std::string_view k_equal = "= ";
+    if (!text.ends_with(k_equal) || value.size() < 2 || (value[0] != '<' && value[0] != '>') || !is_digit(value[1])) {
+        text += value;
+        return;
+    }
+    text.erase(text.size() - k_equal.size());
+    text += value.substr(0, 1) + " " + value.substr(1);
+}
+
 std::string with_decimal_sign(const std::string& text, const std::string& sign) {
     std::string out;
     for (std::size_t i = 0; i < text.size(); ++i) {
@@ -174,7 +193,8 @@ Text Wording::filled(const std::string& group, const std::string& name, const Va
                 out += text.substr(at);
                 break;
             }
-            out += text.substr(at, open - at) + value_of(text.substr(open + 1, close - open - 1));
+            out += text.substr(at, open - at);
+            append_value(out, value_of(text.substr(open + 1, close - open - 1)));
             at = close + 1;
         }
         all.push_back(std::move(out));
@@ -183,12 +203,7 @@ Text Wording::filled(const std::string& group, const std::string& name, const Va
 }
 
 Text Wording::number(const std::string& printed) const {
-    std::string signs;  // of each number: "-0.008; -0.010 mg"
-    for (std::size_t i = 0; i < printed.size(); ++i) {
-        const bool begins = i == 0 || (printed[i - 1] == ' ' && i + 1 < printed.size() && is_digit(printed[i + 1]));
-        signs += begins && printed[i] == '-' ? std::string("\u2212") : std::string(1, printed[i]);
-    }
-    const std::string text = with_power_of_ten(signs);
+    const std::string text = with_power_of_ten(with_minus_of_numbers(printed));
     std::vector<std::string> all;
     for (const std::string& sign : signs_) {
         all.push_back(with_decimal_sign(text, sign));

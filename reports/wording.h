@@ -83,6 +83,10 @@ private:
 
 /// "1.2E-6" as "1.2 × 10⁻⁶", with blanks that do not break; other texts as they are.
 [[nodiscard]] std::string with_power_of_ten(const std::string& text);
+/// The same with U+2212 for the hyphen of each number: "-0.008; -0.010 mg". Other hyphens stay.
+[[nodiscard]] std::string with_minus_of_numbers(const std::string& text);
+/// Appends a value to a text: "p = " and "<1E-300" are "p < 1E-300".
+void append_value(std::string& text, const std::string& value);
 
 /// A text with `sign` in place of every point that stands between two digits.
 [[nodiscard]] std::string with_decimal_sign(const std::string& text, const std::string& sign);

@@ -618,7 +618,7 @@ std::vector<Rule> comparison_rules() {
          .severity = FindingSeverity::major,
          .needs = {Need::comparison},
          .detection = "u(X) above 0.3 σ_pt",
-         .correction = "Use z′ or E_n.",
+         .correction = "Use z′ or Eₙ.",
          .question = "How was the uncertainty of the assigned value taken into account?",
          .examine = z_with_uncertain_assigned_value},
         {.id = "N05",

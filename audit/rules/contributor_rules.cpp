@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <functional>
 #include <iterator>
 #include <map>
 #include <optional>
@@ -114,6 +115,23 @@ void add_missing_contribution(const AuditSubject& subject, std::vector<std::size
     findings.add(std::move(*finding), severity);
 }
 
+/// Whether what the words of the rows do not say is left out; else it is told that nobody knows.
+bool reads_words(const AuditedBudget& budget, FindingCollector& findings) {
+    if (budget.in_other_language) {
+        findings.leave_unchecked(
+            say("{table}: words of rows are read in English and German, and the heads of the table are of another "
+                "language",
+                budget.place));
+    }
+    return !budget.in_other_language;
+}
+/// Budgets that leave something out, of those whose words are read.
+std::vector<std::size_t> budgets_without(const AuditSubject& subject, FindingCollector& findings,
+                                         const std::function<bool(const AuditedBudget&)>& leaves_out) {
+    return budgets_where(
+        subject, [&](const AuditedBudget& budget) { return leaves_out(budget) && reads_words(budget, findings); });
+}
+
 /// What B01 asks of a budget: the checklist of its method, and of the minimum of every method what the checklist does not
 /// name and no other rule of the family looks for.
 std::vector<RequiredContributor> asked_of(const AuditedBudget& budget) {
@@ -160,7 +178,7 @@ void required_contributor_missing(const AuditSubject& subject, FindingCollector&
         }
     };
     for (std::size_t i = 0; i < subject.budgets.size(); ++i) {
-        if (subject.budgets[i].rows.empty()) {
+        if (subject.budgets[i].rows.empty() || !reads_words(subject.budgets[i], findings)) {
             continue;
         }
         const std::vector<RowWithName> rows = named_rows(subject.budgets[i]);
@@ -193,7 +211,7 @@ void required_contributor_missing(const AuditSubject& subject, FindingCollector&
 
 /// B02
 void drift_missing(const AuditSubject& subject, FindingCollector& findings) {
-    std::vector<std::size_t> budgets = budgets_where(subject, [](const AuditedBudget& budget) {
+    std::vector<std::size_t> budgets = budgets_without(subject, findings, [](const AuditedBudget& budget) {
         return has_row_of(budget, {Contributor::reference}) && !has_row_of(budget, {Contributor::reference_drift});
     });
     std::vector<Sentence> evidence;
@@ -244,8 +262,8 @@ void item_missing(const AuditSubject& subject, FindingCollector& findings) {
         {"dut ", "uut ", "device under", "unit under", "prufling", "pruefling", "kalibriergegenstand", "customer"}};
     add_missing_contribution(
         subject,
-        budgets_where(
-            subject,
+        budgets_without(
+            subject, findings,
             [&](const AuditedBudget& budget) { return presence_of(budget, of_item) != Presence::with_number; }),
         say("no contribution of the customer's device: no resolution, repeatability or stability of it"),
         FindingSeverity::major, {}, findings);
@@ -258,8 +276,8 @@ void reproducibility_missing(const AuditSubject& subject, FindingCollector& find
                                        {"reproducib", "reproduzier", "operator", "bediener", "set up", "setup"}};
     add_missing_contribution(
         subject,
-        budgets_where(
-            subject,
+        budgets_without(
+            subject, findings,
             [&](const AuditedBudget& budget) { return presence_of(budget, required) != Presence::with_number; }),
         say("no contribution of reproducibility (operator, day, set-up)"), FindingSeverity::minor, {}, findings);
 }
@@ -268,14 +286,14 @@ void reproducibility_missing(const AuditSubject& subject, FindingCollector& find
 void fit_missing(const AuditSubject& subject, FindingCollector& findings) {
     add_missing_contribution(
         subject,
-        budgets_where(subject,
-                      [](const AuditedBudget& budget) {
-                          const WordLine words(budget.name + "; " + budget.equation + "; " + budget.method);
-                          const bool fitted = words.has_any({"multilateration", "fit ", "fitted", "best fit", "bestfit",
-                                                             "regression", "polynom", "least squares",
-                                                             "calibration curve", "ausgleichs", "kleinste quadrate"});
-                          return fitted && !has_row_of(budget, {Contributor::fit});
-                      }),
+        budgets_without(subject, findings,
+                        [](const AuditedBudget& budget) {
+                            const WordLine words(budget.name + "; " + budget.equation + "; " + budget.method);
+                            const bool fitted = words.has_any({"multilateration", "fit ", "fitted", "best fit",
+                                                               "bestfit", "regression", "polynom", "least squares",
+                                                               "calibration curve", "ausgleichs", "kleinste quadrate"});
+                            return fitted && !has_row_of(budget, {Contributor::fit});
+                        }),
         say("the result comes from a fit, and no contribution of its parameters and residuals is there"),
         FindingSeverity::major, {}, findings);
 }

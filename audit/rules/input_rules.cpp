@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "audit/comment_pieces.h"
 #include "audit/row_facts.h"
 #include "audit/row_meaning.h"
 #include "audit/rules/registry.h"
@@ -138,6 +139,13 @@ void wrong_divisor(const AuditSubject& subject, FindingCollector& findings) {
         // The ratio of u to what it was made from says which slip it was: most of them are one division or root too
         // many or too few.
         const NamedRatio* ratio = named(k_ratios, row, half_width);
+        // In the words alone a number that no slip makes to u is that of something else: "power supply (230 ± 5) V" in mV.
+        const double decades = std::log10(expected / row.used_u);
+        const bool is_decimal_slip = std::abs(decades) > 0.5 && std::abs(decades - std::round(decades)) < 0.005;
+        const bool is_by_root = is_about(row.used_u, half_width / k_root_3);
+        if (ratio == nullptr && !row.stated && !is_decimal_slip && !is_by_root) {
+            return;
+        }
         const bool right_divisor =
             row.divisor && std::abs(row.divisor->value - divisor) <= row.divisor->half_step + 0.01 * divisor;
         if (!slip && (columns_divide_by(row, divisor) || (right_divisor && ratio == nullptr))) {
@@ -299,6 +307,13 @@ void specification_without_evidence(const AuditSubject& subject, FindingCollecto
                              "zertifikat", "inspect", "checked", "tested"})) {
             return;
         }
+        if (at.of.in_other_language) {
+            findings.leave_unchecked(
+                say("{table}: words of rows are read in English and German, and the heads of the table are of another "
+                    "language",
+                    at.is.place));
+            return;
+        }
         AuditFinding finding = finding_at(
             at, "", say("a specification is used, and nothing says that the instrument was found to conform to it"));
         finding.evidence = {equals("u", in_words(at.is.used_u, at.is.unit))};
@@ -319,6 +334,42 @@ bool is_of_several(const AuditedRow& row, double U) {
                           "2 x ", "2 × ", "2×", "2x", "added linearly", "linear addiert"});
 }
 
+/// U of the columns where the words state its k alone, "Standard, certificate (k = 2.65)", and the table divides it by another one:
+/// by a usual k that the words do not name. A root is of a limit or of several, k times a number of several; 1 divides what has been
+/// divided, and 1.96 is near enough to a k of 2.
+std::optional<double> divided_by_other_k(const AuditedRow& row) {
+    constexpr double k_near = 0.03, k_digits = 0.002;
+    constexpr std::array k_usual{1.645, 1.65, 1.96, 2.0, 2.576, 2.58, 3.0};
+    const bool may_be_U = row.shape == Shape::normal || row.shape == Shape::student_t || row.shape == Shape::not_stated;
+    if (!row.stated || !row.divisor || !row.certificate_k || !(*row.certificate_k > 0.0) || !may_be_U) {
+        return std::nullopt;
+    }
+    const double divisor = row.divisor->value, k = *row.certificate_k;
+    const bool is_usual = std::any_of(k_usual.begin(), k_usual.end(),
+                                      [divisor](double usual) { return is_about(divisor, usual, k_digits); });
+    const double squared = divisor * divisor / (k * k);
+    const bool is_multiple = squared > 1.5 && is_about(squared, std::round(squared), 2.0 * k_digits);
+    if (!is_usual || is_multiple || is_about(divisor, k, k_near)) {
+        return std::nullopt;
+    }
+    // Another k, or how one came from the other.
+    const Pieces pieces = pieces_of(words_of_row(row) + "; " + row.description, row.decimal_sign);
+    const auto symbols =
+        std::count_if(pieces.begin(), pieces.end(), [](const Piece& piece) { return piece.raw == "k"; });
+    const bool is_named = std::any_of(pieces.begin(), pieces.end(), [divisor](const Piece& piece) {
+        return piece.is_number() && is_about(std::abs(piece.value), divisor, k_digits);
+    });
+    constexpr double k_usual_p = 0.96;  // "(k = 2), 99 % limits"
+    if (symbols > 1 || is_named || row.certificate_probability.value_or(0.0) > k_usual_p ||
+        mentions(row, {"convert", "recalc",  "umgerechn", "umrechn", "halved",  "half",    "halb",  "pair",
+                       "paar",    "piece",   "stück",     "mean",    "average", "mittel",  " each", "both",
+                       "two ",    "three ",  "zwei ",     "drei ",   "beide",   "jeweils", "share", "anteil",
+                       "several", "mehrere", "limit",     "toleran", "grenz"})) {
+        return std::nullopt;
+    }
+    return std::abs(row.stated->value);
+}
+
 /// U13
 void certificate_by_wrong_k(const AuditSubject& subject, FindingCollector& findings) {
     static const std::array<NamedRatio, 5> k_ratios = {{
@@ -330,11 +381,12 @@ void certificate_by_wrong_k(const AuditSubject& subject, FindingCollector& findi
     }};
     for_each_row(subject, [&findings](const RowAt& at) {
         const AuditedRow& row = at.is;
-        if (row.origin != Origin::certificate || !row.origin_value || !row.certificate_k ||
-            !(*row.origin_value > 0.0) || !(*row.certificate_k > 0.0)) {
+        const std::optional<double> stated = row.origin_value ? row.origin_value : divided_by_other_k(row);
+        if (row.origin != Origin::certificate || !stated || !row.certificate_k || !(*stated > 0.0) ||
+            !(*row.certificate_k > 0.0)) {
             return;
         }
-        const double U = *row.origin_value, k = *row.certificate_k;
+        const double U = *stated, k = *row.certificate_k;
         // U with one digit leaves much open, but not by what the table divides it.
         const bool other_divisor = row.divisor && row.stated && is_about(row.stated->value, U, 1e-9) &&
                                    std::abs(row.divisor->value - k) > row.divisor->half_step + 0.01 * k &&
@@ -376,6 +428,20 @@ void certificate_without_k(const AuditSubject& subject, FindingCollector& findin
                                 row.shape == Shape::arcsine || row.shape == Shape::trapezoidal;
         if (row.origin != Origin::certificate || row.certificate_k || row.certificate_probability || row.divisor ||
             has_limits) {
+            return;
+        }
+        // What a certificate states as a standard uncertainty has no k, and a drift between two certificates is no U.
+        const bool is_standard =
+            row.origin_value && is_about(row.used_u, *row.origin_value) &&
+            mentions(row, {"standard uncertainty", "standardunsicherheit", "standardmessunsicherheit"});
+        if (is_standard || row.contributor == Contributor::reference_drift) {
+            return;
+        }
+        if (at.of.in_other_language) {
+            findings.leave_unchecked(
+                say("{table}: words of rows are read in English and German, and the heads of the table are of another "
+                    "language",
+                    at.is.place));
             return;
         }
         const bool halved = row.origin_value && is_about(row.used_u, 0.5 * *row.origin_value);

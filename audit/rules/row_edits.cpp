@@ -244,7 +244,8 @@ std::optional<double> u_of_divided(const AuditedRow& row, double divisor) {
     const std::optional<double> by_words = u_by_words(row);
     if (row.origin == Origin::resolution) {
         constexpr double k_half_of_step = 0.55;  // of a larger u the column has half of the step
-        const bool is_step = row.shape == Shape::rectangular && is_number_of_words &&
+        // Without a number in its words nothing tells the step from half of it, and the distribution counts.
+        const bool is_step = row.origin_value && row.shape == Shape::rectangular && is_number_of_words &&
                              !(is_step_of_column(row) && row.used_u > k_half_of_step * words);
         return is_step ? by_words : column / divisor;
     }

@@ -220,6 +220,147 @@ constexpr std::array k_column_words = {
     Word{U"hinweis", comment},
 };
 
+/// Those of Spanish, French, Chinese and of published tables: words that have one meaning alone. An array of more than 256 words has no
+/// type that Clang 14 finds itself.
+constexpr std::array k_further_column_words = {
+    Word{U"componentname", quantity},
+    Word{U"nameofcomponent", quantity},
+    Word{U"standarduncertaintycomponent", quantity},
+    Word{U"uncertaintysources", quantity},
+    Word{U"sourcesofuncertainty", quantity},
+    Word{U"magnitud", quantity},
+    Word{U"magnituddeentrada", quantity},
+    Word{U"magnitudesdeentrada", quantity},
+    Word{U"magnituddeinfluencia", quantity},
+    Word{U"fuentedeincertidumbre", quantity},
+    Word{U"fuentesdeincertidumbre", quantity},
+    Word{U"componente", quantity},
+    Word{U"componentedeincertidumbre", quantity},
+    Word{U"descripcion", quantity},
+    Word{U"simbolo", quantity},
+    Word{U"grandeur", quantity},
+    Word{U"grandeurdentree", quantity},
+    Word{U"grandeursdentree", quantity},
+    Word{U"grandeurdinfluence", quantity},
+    Word{U"sourcedincertitude", quantity},
+    Word{U"sourcesdincertitude", quantity},
+    Word{U"composante", quantity},
+    Word{U"composantedincertitude", quantity},
+    Word{U"designation", quantity},
+    Word{U"symbole", quantity},
+    Word{U"輸入量", quantity},
+    Word{U"输入量", quantity},
+    Word{U"影響量", quantity},
+    Word{U"影响量", quantity},
+    Word{U"不確定度來源", quantity},
+    Word{U"不确定度来源", quantity},
+    Word{U"estimacion", estimate},
+    Word{U"mejorestimacion", estimate},
+    Word{U"valorestimado", estimate},
+    Word{U"valor", estimate},
+    Word{U"estimation", estimate},
+    Word{U"valeur", estimate},
+    Word{U"valeurestimee", estimate},
+    Word{U"估計值", estimate},
+    Word{U"估计值", estimate},
+    Word{U"unidad", unit},
+    Word{U"unidades", unit},
+    Word{U"unite", unit},
+    Word{U"unites", unit},
+    Word{U"單位", unit},
+    Word{U"单位", unit},
+    Word{U"semiancho", stated},
+    Word{U"semiamplitud", stated},
+    Word{U"semiintervalo", stated},
+    Word{U"incertidumbre", stated},
+    Word{U"incertidumbreexpandida", stated},
+    Word{U"limite", stated},
+    Word{U"especificacion", stated},
+    Word{U"tolerancia", stated},
+    Word{U"demietendue", stated},
+    Word{U"demilargeur", stated},
+    Word{U"incertitude", stated},
+    Word{U"incertitudeelargie", stated},
+    Word{U"emt", stated},
+    Word{U"半寬", stated},
+    Word{U"半寬度", stated},
+    Word{U"半宽", stated},
+    Word{U"半宽度", stated},
+    Word{U"擴充不確定度", stated},
+    Word{U"扩展不确定度", stated},
+    Word{U"diviseur", divisor},
+    Word{U"除數", divisor},
+    Word{U"除数", divisor},
+    Word{U"distribucion", distribution},
+    Word{U"distribuciondeprobabilidad", distribution},
+    Word{U"tipodedistribucion", distribution},
+    Word{U"loi", distribution},
+    Word{U"loidedistribution", distribution},
+    Word{U"loideprobabilite", distribution},
+    Word{U"typedeloi", distribution},
+    Word{U"typededistribution", distribution},
+    Word{U"分布", distribution},
+    Word{U"分佈", distribution},
+    Word{U"機率分布", distribution},
+    Word{U"機率分佈", distribution},
+    Word{U"機率分配", distribution},
+    Word{U"概率分布", distribution},
+    Word{U"tipo", type},
+    Word{U"valueofstandarduncertainty", Column::u},
+    Word{U"incertidumbretipica", Column::u},
+    Word{U"incertidumbreestandar", Column::u},
+    Word{U"incertidumbretipicau", Column::u},
+    Word{U"incertidumbreestandaru", Column::u},
+    Word{U"incertitudetype", Column::u},
+    Word{U"incertitudetypeu", Column::u},
+    Word{U"標準不確定度", Column::u},
+    Word{U"标准不确定度", Column::u},
+    Word{U"coeficientedesensibilidad", sensitivity},
+    Word{U"coefdesensibilidad", sensitivity},
+    Word{U"coefsensibilidad", sensitivity},
+    Word{U"sensibilidad", sensitivity},
+    Word{U"coefficientdesensibilite", sensitivity},
+    Word{U"coefdesensibilite", sensitivity},
+    Word{U"coefsensibilite", sensitivity},
+    Word{U"sensibilite", sensitivity},
+    Word{U"靈敏係數", sensitivity},
+    Word{U"靈敏度係數", sensitivity},
+    Word{U"敏感係數", sensitivity},
+    Word{U"灵敏系数", sensitivity},
+    Word{U"灵敏度系数", sensitivity},
+    Word{U"contribucion", contribution},
+    Word{U"contribucionalaincertidumbre", contribution},
+    Word{U"contribuciondeincertidumbre", contribution},
+    Word{U"contribucionalaincertidumbretipica", contribution},
+    Word{U"contribucionalaincertidumbreestandar", contribution},
+    Word{U"contributionalincertitude", contribution},
+    Word{U"contributionalincertitudetype", contribution},
+    Word{U"不確定度貢獻", contribution},
+    Word{U"不确定度贡献", contribution},
+    Word{U"gradosdelibertad", Column::nu},
+    Word{U"gdl", Column::nu},
+    Word{U"degresdeliberte", Column::nu},
+    Word{U"ddl", Column::nu},
+    Word{U"自由度", Column::nu},
+    Word{U"origen", source},
+    Word{U"certificado", source},
+    Word{U"origine", source},
+    Word{U"certificat", source},
+    Word{U"comentario", comment},
+    Word{U"comentarios", comment},
+    Word{U"observaciones", comment},
+    Word{U"nota", comment},
+    Word{U"notas", comment},
+    Word{U"commentaire", comment},
+    Word{U"commentaires", comment},
+    Word{U"remarque", comment},
+    Word{U"remarques", comment},
+    Word{U"備註", comment},
+    Word{U"备注", comment},
+    Word{U"說明", comment},
+    Word{U"说明", comment},
+};
+
 constexpr std::array k_statement_words = {
     Word{U"value", Statement::value},
     Word{U"y", Statement::value},
@@ -353,6 +494,57 @@ constexpr std::array k_statement_words = {
     Word{U"measurementmodel", Statement::equation},
     Word{U"modell", Statement::equation},
     Word{U"modellgleichung", Statement::equation},
+    Word{U"incertidumbretipicacombinada", Statement::u_c},
+    Word{U"incertidumbretipicacombinadauc", Statement::u_c},
+    Word{U"incertidumbretipicacombinadauy", Statement::u_c},
+    Word{U"incertidumbreestandarcombinada", Statement::u_c},
+    Word{U"incertidumbreestandarcombinadauc", Statement::u_c},
+    Word{U"incertidumbrecombinada", Statement::u_c},
+    Word{U"incertidumbrecombinadauc", Statement::u_c},
+    Word{U"incertitudetypecomposee", Statement::u_c},
+    Word{U"incertitudetypecomposeeuc", Statement::u_c},
+    Word{U"incertitudetypecomposeeuy", Statement::u_c},
+    Word{U"incertitudecomposee", Statement::u_c},
+    Word{U"incertitudetypecombinee", Statement::u_c},
+    Word{U"incertitudecombinee", Statement::u_c},
+    Word{U"組合標準不確定度", Statement::u_c},
+    Word{U"組合標準不確定度uc", Statement::u_c},
+    Word{U"組合不確定度", Statement::u_c},
+    Word{U"合成標準不確定度", Statement::u_c},
+    Word{U"合成标准不确定度", Statement::u_c},
+    Word{U"合成标准不确定度uc", Statement::u_c},
+    Word{U"gradosdelibertadefectivos", Statement::nu_eff},
+    Word{U"gradosefectivosdelibertad", Statement::nu_eff},
+    Word{U"degresdeliberteeffectifs", Statement::nu_eff},
+    Word{U"nombreeffectifdedegresdeliberte", Statement::nu_eff},
+    Word{U"有效自由度", Statement::nu_eff},
+    Word{U"factordecobertura", Statement::k},
+    Word{U"factordecoberturak", Statement::k},
+    Word{U"facteurdelargissement", Statement::k},
+    Word{U"facteurdelargissementk", Statement::k},
+    Word{U"涵蓋因子", Statement::k},
+    Word{U"涵蓋因子k", Statement::k},
+    Word{U"擴充係數", Statement::k},
+    Word{U"包含因子", Statement::k},
+    Word{U"包含因子k", Statement::k},
+    Word{U"incertidumbreexpandida", Statement::U},
+    Word{U"incertidumbreexpandidau", Statement::U},
+    Word{U"incertitudeelargie", Statement::U},
+    Word{U"incertitudeelargieu", Statement::U},
+    Word{U"擴充不確定度", Statement::U},
+    Word{U"擴充不確定度u", Statement::U},
+    Word{U"擴展不確定度", Statement::U},
+    Word{U"擴展不確定度u", Statement::U},
+    Word{U"扩展不确定度", Statement::U},
+    Word{U"扩展不确定度u", Statement::U},
+    Word{U"probabilidaddecobertura", Statement::coverage_probability},
+    Word{U"niveldeconfianza", Statement::coverage_probability},
+    Word{U"probabilitedecouverture", Statement::coverage_probability},
+    Word{U"niveaudeconfiance", Statement::coverage_probability},
+    Word{U"信賴水準", Statement::coverage_probability},
+    Word{U"置信水准", Statement::coverage_probability},
+    Word{U"包含概率", Statement::coverage_probability},
+    Word{U"涵蓋機率", Statement::coverage_probability},
 };
 
 /// Columns that budgets have beside those that an audit reads: shares, squares, numbers of rows.
@@ -402,6 +594,10 @@ constexpr std::array k_unused_columns = {
     Word{U"contributionpercent", true},
     Word{U"date", true},
     Word{U"datum", true},
+    Word{U"numero", true},
+    Word{U"項次", true},
+    Word{U"序號", true},
+    Word{U"序号", true},
 };
 
 /// Names of the value of a result that is a deviation. An input quantity may be called so as well.
@@ -451,12 +647,45 @@ Dictionary<Meaning> dictionary_of(const std::array<Word<Meaning>, N>& words) {
 }
 
 template <const auto& words>
-auto meaning_of(std::string_view text) -> std::optional<decltype(words[0].meaning)> {
+auto meaning_of_letters(const std::u32string& letters) -> std::optional<decltype(words[0].meaning)> {
     static const auto meanings = dictionary_of(words);
-    const std::u32string letters = certificate::letters_of(text);
     const auto word = meanings.find(letters);
     return word == meanings.end() ? std::nullopt : std::optional(word->second);
 }
+template <const auto& words>
+auto meaning_of(std::string_view text) {
+    return meaning_of_letters<words>(certificate::letters_of(text));
+}
+
+std::optional<Column> column_word(std::string_view text) {
+    const std::u32string letters = certificate::letters_of(text);
+    const std::optional<Column> column = meaning_of_letters<k_column_words>(letters);
+    return column ? column : meaning_of_letters<k_further_column_words>(letters);
+}
+
+}  // namespace
+
+bool is_of_other_language(std::string_view head) {
+    const std::u32string letters = certificate::letters_of(head);
+    constexpr char32_t k_first_ideograph = U'\u3400', k_last_ideograph = U'\u9FFF';
+    if (std::any_of(letters.begin(), letters.end(),
+                    [](char32_t letter) { return letter >= k_first_ideograph && letter <= k_last_ideograph; })) {
+        return true;
+    }
+    constexpr std::array<std::u32string_view, 20> k_parts{
+        U"incertidumbre", U"incertitude", U"sensibilidad", U"sensibilite", U"contribucion",
+        U"distribucion",  U"coeficiente", U"unidad",       U"grandeur",    U"diviseur",
+        U"valeur",        U"composante",  U"estimacion",   U"semiancho",   U"semiintervalo",
+        U"demietendue",   U"demilargeur", U"tolerancia",   U"degresdelib", U"gradosdelib"};
+    constexpr std::array<std::u32string_view, 12> k_whole{U"magnitud", U"componente", U"fuente", U"valor",
+                                                          U"unite",    U"loi",        U"origen", U"origine",
+                                                          U"simbolo",  U"symbole",    U"limite", U"descripcion"};
+    return std::find(k_whole.begin(), k_whole.end(), letters) != k_whole.end() ||
+           std::any_of(k_parts.begin(), k_parts.end(),
+                       [&letters](std::u32string_view part) { return letters.find(part) != std::u32string::npos; });
+}
+
+namespace {
 
 /// What stands before a unit or explanation in brackets: "u(xi) [µm]" and "U95 (k=2)" begin with what they are.
 std::string_view without_brackets(std::string_view text) {
@@ -605,8 +834,8 @@ std::string_view without_unit(std::string_view head) {
         }
         const std::string rest(trimmed(head.substr(at + sign.size())));
         const bool is_unit = known_unit(rest).has_value();
-        const bool may_be = sign == " / " && rest.find(' ') == std::string::npos &&
-                            (rest == "U" || rest == "a" || !meaning_of<k_column_words>(rest));
+        const bool may_be =
+            sign == " / " && rest.find(' ') == std::string::npos && (rest == "U" || rest == "a" || !column_word(rest));
         if (is_unit || may_be) {
             return trimmed(head.substr(0, at));
         }
@@ -615,13 +844,13 @@ std::string_view without_unit(std::string_view head) {
 }
 
 std::optional<Column> meaning_of_head(std::string_view text) {
-    if (text == "u") {
+    if (text == "u" || text == "u_xx") {  // the latter in ISO 14253-2
         return Column::u;
     }
     if (text == "U" || text == "±" || text == "+/-") {
         return Column::stated;
     }
-    return meaning_of<k_column_words>(text);
+    return column_word(text);
 }
 
 }  // namespace
@@ -747,6 +976,10 @@ std::optional<Column> relative_column_of(std::string_view head, std::string_view
 
 std::optional<Column> column_of(std::string_view head) {
     head = trimmed(head);
+    // "u_i ≡ |c_i| u(x_i) (nm)": a symbol and what it stands for (JCGM 100:2008, table H.1).
+    if (const std::size_t at = head.find(" ≡ "); at != std::string_view::npos && at > 0) {
+        return column_of(head.substr(0, at));
+    }
     // "u bei 10 V", "Contribution 10 V": of one of several points beside each other.
     if (const std::size_t at = point_of(head).at; at != std::string_view::npos && head[at - 1] != '(') {
         std::string_view name = trimmed(head.substr(0, at));
@@ -819,6 +1052,10 @@ std::optional<Column> column_of(std::string_view head) {
         if (column == Column::stated && symbol.front() == 'u') {  // "Uncertainty u(x)"
             const std::optional<Column> of_symbol = meaning_of_head(symbol);
             return of_symbol ? of_symbol : Column::u;
+        }
+        // "Uncertainty component u_xx [µm]" (ISO 14253-2): what has a unit is no name.
+        if (column == Column::quantity && symbol.front() == 'u' && known_unit(unit_in_head(std::string(head)))) {
+            return Column::u;
         }
         if (column) {
             return column;
@@ -958,6 +1195,74 @@ std::string_view factor_of_u(std::string_view product) {
     return has_sign && is_u ? product.substr(0, factor) : std::string_view();
 }
 
+constexpr std::string_view k_signs_of_product[] = {"·", "×", "*", "⋅", "x "};
+
+/// What k is in a product of numbers.
+struct FactorInNumbers {
+    std::string_view k;    ///< empty where none is known
+    bool is_open = false;  ///< one of the numbers is k, and nothing says which
+};
+
+/// 2 of "k · u(y) = 2 × 37.7 mg", as EA-4/02 writes U; of "k·u_c = 0.0651·2", too, where u is no k. Nothing where no product of
+/// numbers follows.
+FactorInNumbers factor_in_numbers(std::string_view product) {
+    const std::size_t sign = product.find('=');
+    std::string_view numbers = sign == std::string_view::npos ? std::string_view() : trimmed(product.substr(sign + 1));
+    const auto leading = [](std::string_view text) { return text.substr(0, text.find_first_not_of("0123456789.,")); };
+    const auto value_of = [](std::string_view digits) {
+        const std::optional<StatedNumber> number = read_number(std::string(digits), "");
+        return number ? number->value : 0.0;
+    };
+    const auto may_be_k = [](double number) { return number >= 1.0 && number <= 14.0; };
+    const auto is_usual_k = [](double number) {
+        constexpr std::array k_usual{1.64, 1.645, 1.65, 1.96, 2.0, 2.576, 2.58, 3.0};
+        return std::find(k_usual.begin(), k_usual.end(), number) != k_usual.end();
+    };
+    const std::string_view first = leading(numbers);
+    numbers = trimmed(numbers.substr(first.size()));
+    for (const std::string_view times : k_signs_of_product) {
+        if (first.empty() || !numbers.starts_with(times)) {
+            continue;
+        }
+        const std::string_view rest = trimmed(numbers.substr(times.size())), second = leading(rest);
+        const double one = value_of(first), other = value_of(second);
+        if (second.empty()) {  // "2 × (0.05² + 0.03²)^(1/2)", "2 × √0.0034 mV"
+            const bool is_sum = rest.starts_with('(') || rest.starts_with("√") || rest.starts_with("sqrt");
+            return {.k = is_sum && may_be_k(one) ? first : std::string_view(), .is_open = is_sum && !may_be_k(one)};
+        }
+        const std::string_view behind = trimmed(rest.substr(second.size()));
+        const bool has_unit = !behind.empty() && !behind.starts_with('=') && !behind.starts_with("≅") &&
+                              !behind.starts_with("≈") && !behind.starts_with("≃");
+        if (may_be_k(one) &&
+            (has_unit || !may_be_k(other) || one == other || (is_usual_k(one) && !is_usual_k(other)))) {
+            return {.k = first};
+        }
+        if (!has_unit && may_be_k(other) && (!may_be_k(one) || (is_usual_k(other) && !is_usual_k(one)))) {
+            return {.k = second};
+        }
+        return {.k = {}, .is_open = true};
+    }
+    return {};
+}
+
+/// 59 mg of "k·u(m_X) = 2·29.3 mg ≅ 59 mg"; empty where a product ends the text.
+std::string_view number_at_end(std::string_view product) {
+    std::size_t last = std::string_view::npos, behind = 0;
+    for (const std::string_view sign : {"=", "≅", "≈", "≃"}) {
+        const std::size_t at = product.rfind(sign);
+        if (at != std::string_view::npos && (last == std::string_view::npos || at > last)) {
+            last = at;
+            behind = at + sign.size();
+        }
+    }
+    const std::string_view number =
+        last == std::string_view::npos ? std::string_view() : trimmed(product.substr(behind));
+    const bool is_product =
+        std::any_of(std::begin(k_signs_of_product), std::end(k_signs_of_product),
+                    [number](std::string_view times) { return number.find(times) != std::string_view::npos; });
+    return number.empty() || !is_of_number(number.front()) || is_product ? std::string_view() : number;
+}
+
 /// What follows a part of a name.
 std::string_view behind_of(std::string_view name, std::string_view part) {
     return name.substr(static_cast<std::size_t>(part.data() - name.data()) + part.size());
@@ -1076,14 +1381,18 @@ std::optional<NamedStatement> statement_named(std::string_view name, bool may_ha
             const std::size_t at = behind.find(word);
             with = at != std::string_view::npos && begins_with_coverage(behind.substr(at)) ? std::min(with, at) : with;
         }
-        if (const std::string_view factor = factor_of_u(behind.substr(0, with)); !factor.empty()) {
+        const std::string_view product = behind.substr(0, with);
+        if (const std::string_view factor = factor_of_u(product.substr(0, product.find('='))); !factor.empty()) {
             const std::optional<NamedStatement> whole = whole_statement(symbol);
             if ((whole && whole->statement == Statement::U) || symbol.starts_with("U(") || symbol == "U_95") {
                 const std::string said(with == std::string_view::npos ? std::string_view() : behind.substr(with));
+                const bool is_symbol_of_k = factor.front() == 'k' || factor.front() == 't';
+                const FactorInNumbers k = is_symbol_of_k ? factor_in_numbers(product) : FactorInNumbers{.k = factor};
+                // Where the product has k and nobody can tell which number it is, k is stated all the same.
+                const std::string in_product(k.is_open && said.empty() ? trimmed(product) : std::string_view());
                 return NamedStatement{.statement = Statement::U,
-                                      .coverage = factor.front() == 'k' || factor.front() == 't'
-                                                      ? said
-                                                      : "k = " + std::string(factor) + said};
+                                      .coverage = k.k.empty() ? said + in_product : "k = " + std::string(k.k) + said,
+                                      .assigned = std::string(number_at_end(product))};
             }
         }
         if (std::optional<NamedStatement> named = whole_statement(name.substr(0, sign))) {

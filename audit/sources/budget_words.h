@@ -29,6 +29,9 @@ inline constexpr int k_columns = 13;
 /// "Contribution / nm", "Beitrag in µm", "Quantity X_i", "Sensitivity dT/dx".
 [[nodiscard]] std::optional<Column> column_of(std::string_view head);
 
+/// Whether a head is a Spanish, French or Chinese word. The heads of such a table are known, and the words of its rows are not.
+[[nodiscard]] bool is_of_other_language(std::string_view head);
+
 /// The point that a head is of, "10 V" of "u (10 V)", "u bei 10 V" and "Contribution 10 V"; "" where it has no number with a unit.
 [[nodiscard]] std::string point_in_head(std::string_view head);
 /// The column of relative uncertainties that a head names, with the unit of a part: "Relative standard uncertainty (%)", "rel.

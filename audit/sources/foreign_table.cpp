@@ -254,8 +254,8 @@ private:
         }
         std::optional<Heads> heads = heads_of(sheet_, row);
         if (std::optional<Heads> joined = heads_in_two_lines(number, row);
-            joined &&
-            (!heads || (joined->columns.size() > heads->columns.size() && !names_row_below(number, *heads)))) {
+            joined && (!heads || is_second_line(number, *heads) ||
+                       (joined->columns.size() > heads->columns.size() && !names_row_below(number, *heads)))) {
             heads = std::move(joined);
             skip_until_ = number + 1;
         }
@@ -288,6 +288,7 @@ private:
             title_ = number <= line_above_ + k_near ? above_ : "";
             unit_in_words_ = number <= line_of_unit_ + k_near ? unit_above_ : "";
             budget_.place = sheet_.place({.row = number, .column = row.front()->address.column});
+            budget_.in_other_language = budget_.in_other_language || heads_->in_other_language;
             return;
         }
         if (heads_ && is_near_ && !budget_.rows.empty() && is_words_alone(row)) {
@@ -437,12 +438,30 @@ private:
                    return sheet_.value(*cell).kind == CellKind::text && !sheet_.number_with_unit(*cell);
                });
     }
+    /// Whether what stands below some heads are their symbols, "a_i | u(x_i) | c_i | u_i in µm" below "Influence | Limit | …": what would name
+    /// the rows of a table of its own stands below the head of something else.
+    [[nodiscard]] bool is_second_line(std::uint32_t number, const std::optional<Heads>& heads) const {
+        const auto next = rows_->find(number + 1);
+        const std::optional<Heads> below =
+            heads && next != rows_->end() ? heads_of(sheet_, next->second) : std::optional<Heads>();
+        if (!below) {
+            return false;
+        }
+        const std::uint32_t names = below->columns.at(Column::quantity);
+        const bool is_headed = std::any_of(heads->columns.begin(), heads->columns.end(), [names](const auto& head) {
+            return head.second == names && head.first != Column::quantity;
+        });
+        return is_headed && std::count_if(below->columns.begin(), below->columns.end(), [&heads](const auto& head) {
+                                const auto above = heads->columns.find(head.first);
+                                return above != heads->columns.end() && above->second == head.second;
+                            }) > 1;
+    }
     /// Heads of a line together with those of the next one, as of merged cells: in each column the one that is known, the lower
     /// before the upper one, or both as one: "Standard-" above "unsicherheit", "Standard" above "uncertainty".
     [[nodiscard]] std::optional<Heads> heads_in_two_lines(std::uint32_t number, const SheetView::Row& row) {
         const auto next = rows_->find(number + 1);
         if (next == rows_->end() || !is_words_alone(row) || !is_words_alone(next->second) ||
-            heads_of(sheet_, next->second)) {
+            (heads_of(sheet_, next->second) && !is_second_line(number, heads_of(sheet_, row)))) {
             return std::nullopt;
         }
         std::map<std::uint32_t, const Cell*> columns;

@@ -467,6 +467,14 @@ bool may_be_U_of(const Heads* heads, const std::string& unit) {
 
 }  // namespace
 
+/// Whether the numbers behind a cell are the one that its text ends with: "U = k·u(m_X) = 2·29.3 mg = 59 mg | 59 mg".
+bool repeats_number(const SheetView& sheet, const SheetView::Row& row, std::size_t cell, const std::string& text) {
+    const std::optional<NumberWithUnit> held = sheet.number_in_text(text, *row[cell]);
+    return held && std::all_of(row.begin() + static_cast<std::ptrdiff_t>(cell) + 1, row.end(), [&](const Cell* other) {
+               const std::optional<NumberWithUnit> number = sheet.number_with_unit(*other);
+               return !number || number->number.value == held->number.value;
+           });
+}
 std::optional<NamedLine> name_of_line(const SheetView& sheet, const SheetView::Row& row, const Heads* heads) {
     // A name stands before what it names; before it may stand the symbol of what it names.
     for (std::size_t i = 0; i < row.size() && i < 2; ++i) {
@@ -486,7 +494,9 @@ std::optional<NamedLine> name_of_line(const SheetView& sheet, const SheetView::R
             const bool is_alone =
                 std::none_of(row.begin() + static_cast<std::ptrdiff_t>(i) + 1, row.end(),
                              [&sheet](const Cell* cell) { return sheet.number_with_unit(*cell).has_value(); });
-            if (!has_number || !is_alone) {
+            if (has_number && !is_alone && repeats_number(sheet, row, i, named->assigned)) {
+                named->assigned.clear();
+            } else if (!has_number || !is_alone) {
                 named.reset();
             }
         }

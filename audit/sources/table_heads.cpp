@@ -395,6 +395,7 @@ std::optional<Heads> heads_of(const SheetView& sheet, const SheetView::Row& row)
             continue;
         }
         const std::string held = sheet.words(*cell);
+        heads.in_other_language = heads.in_other_language || is_of_other_language(held);
         // "u(x_i) | c_i | u_i": behind u and a coefficient u_i is that of the result.
         const auto is_of_result = [](const std::string& head) {
             return head.starts_with("u_i") || head.starts_with("ui");

@@ -20,6 +20,7 @@ struct Heads {
     std::map<std::uint32_t, std::string> all_units;  ///< that heads state, by column of the sheet
     std::optional<std::uint32_t> marks_a, marks_b;   ///< columns of marks, which say of what type a row is
     std::optional<std::uint32_t> description;    ///< column of words beside a column of symbols, or the other way round
+    bool in_other_language = false;              ///< than those in which words of rows are read
     std::vector<const workbook::Cell*> second;   ///< heads of columns of numbers whose meaning another one has
     std::vector<const workbook::Cell*> unknown;  ///< heads within the table or beside it whose meaning nobody knows
 };

@@ -33,7 +33,6 @@ constexpr double k_well_conditioned = 1e-8;     // smallest pivot of a correlati
 constexpr Index k_most_points_of_eigenvectors = 500;  // their cost grows with the cube
 constexpr double k_equal_factors = 1e-12;             // of coverage, relative
 constexpr double k_tail_of_band = 0.025;              // 95 % between both
-constexpr double k_significant = 0.025;               // of p_low and p_high
 constexpr double k_negligible_reference = 1.0 / 3.0;
 constexpr double k_rounding_of_statements = 0.05;   // of u of a point
 constexpr double k_chance_of_single_points = 0.01;  // of their number, and of the largest of them
@@ -399,8 +398,10 @@ void add_test_of_uncertainty(const ScoreLaw& law, const SumOfSquaredScores& of_z
     result.p_if_too_small = if_too_small.lower_tail(result.sum_of_squared_zeta);
     result.p_if_too_large = if_too_large.upper_tail(result.sum_of_squared_zeta);
     // The range of Σ ζ² in which both a doubled and a halved uncertainty are refuted while the stated one is not.
-    const double high = std::min(if_too_small.quantile(k_error_of_confirmation), of_zeta.quantile(1.0 - k_significant));
-    const double low = std::max(if_too_large.quantile(1.0 - k_error_of_confirmation), of_zeta.quantile(k_significant));
+    const double high =
+        std::min(if_too_small.quantile(k_error_of_confirmation), of_zeta.quantile(1.0 - k_chance_of_size));
+    const double low =
+        std::max(if_too_large.quantile(1.0 - k_error_of_confirmation), of_zeta.quantile(k_chance_of_size));
     // high ≤ low: whatever the sum is, it cannot refute both. Few points, or points that share much, confirm nothing.
     // Where both are nearly one, the tails differ by no more than their accuracy.
     result.power_to_confirm = high > low ? std::max(0.0, of_zeta.lower_tail(high) - of_zeta.lower_tail(low)) : 0.0;
@@ -765,7 +766,7 @@ double vector_en(const VectorXd& d, const MatrixXd& covariance, double coverage_
 }
 
 bool is_too_large(const Agreement& agreement) {
-    return !(agreement.p_high >= chance_in_family(k_significant, agreement.family)) ||
+    return !(agreement.p_high >= chance_in_family(k_chance_of_size, agreement.family)) ||
            !(agreement.largest_absolute_en <= agreement.largest_en_by_chance);
 }
 
@@ -777,7 +778,7 @@ AgreementVerdict agreement_verdict(const Agreement& agreement, std::optional<dou
                                    const std::optional<BiasTest>& bias) {
     // In the order of the objections: what refutes the agreement comes before what limits the proof of it. The
     // conditions are negated, so that a number that is none objects.
-    const double significant = chance_in_family(k_significant, agreement.family);
+    const double significant = chance_in_family(k_chance_of_size, agreement.family);
     const double chance = chance_in_family(k_chance_of_bias_and_pattern, agreement.family);
     const double p_bias = bias ? bias->p : 1.0;
     if (is_too_large(agreement) || is_refuted_pattern(agreement) || !(p_bias >= chance)) {

@@ -177,5 +177,7 @@ inline constexpr double k_least_power_to_confirm = 0.92;
 [[nodiscard]] bool is_refuted_pattern(const Agreement& agreement);
 /// Of p of a bias line and of p_pattern: they stand beside p_high, and 1 of 100 comparisons fails each by chance.
 inline constexpr double k_chance_of_bias_and_pattern = 0.01;
+/// Of p_low and p_high.
+inline constexpr double k_chance_of_size = 0.025;
 
 }  // namespace gumcert::gum

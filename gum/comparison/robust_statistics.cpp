@@ -37,6 +37,10 @@ constexpr double k_vanished = 1e-12;  // of the scale that algorithm A began wit
                "or give the results with more digits.");
 }
 
+[[noreturn]] void refuse_equal(const std::string& method, std::size_t results) {
+    refuse_scale(method, "all " + text::count_of(results, "result") + " are equal: the scale is 0");
+}
+
 [[noreturn]] void refuse_no_scale_of_algorithm_a(std::size_t results) {
     refuse_scale("algorithm A",
                  "more than half of " + std::to_string(results) +
@@ -299,7 +303,7 @@ double q_scale(const std::vector<double>& ascending) {
     const auto pairs = static_cast<double>(differences.pairs());
     const auto equal_pairs = static_cast<double>(differences.up_to(0.0));
     if (equal_pairs == pairs) {
-        refuse_scale("Q method", "all " + text::count_of(ascending.size(), "result") + " are equal: the scale is 0");
+        refuse_equal("Q method", ascending.size());
     }
     // Twice the number of pairs, so that all counts are whole or half: 2 pairs G.
     const double wanted = 0.5 * pairs + 1.5 * equal_pairs;
@@ -545,7 +549,7 @@ RobustEstimate algorithm_a(std::span<const double> results, AlgorithmAConstants 
     const Real largest =
         std::max(std::abs(static_cast<Real>(ascending.front())), std::abs(static_cast<Real>(ascending.back())));
     if (!(start > (half_are_equal ? k_roundings * std::numeric_limits<double>::epsilon() * largest : 0.0L))) {
-        refuse_no_scale_of_algorithm_a(ascending.size());
+        refuse_equal("algorithm A", ascending.size());
     }
     const DrawnIn drawn(values);
     Real x = 0.0L;  // x* − median

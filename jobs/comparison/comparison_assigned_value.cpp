@@ -69,7 +69,7 @@ void read_given(const ComparisonReading& reading, const JsonObject& object, gum:
     if (!states_uncertainty(object)) {
         reading.problems.warn(k_warn_exact_assigned_value, object.where(),
                               "the assigned value " + text::shortest_plain(request.value) + " has no uncertainty",
-                              "it is taken as exactly known, and E_n then judges the laboratories alone",
+                              "it is taken as exactly known, and Eₙ then judges the laboratories alone",
                               "add \"u\", or \"U\" and \"k\", unless the value is exact by definition");
     }
     request.sources =

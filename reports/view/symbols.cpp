@@ -27,6 +27,9 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 34> k_greek{
 constexpr std::array<std::string_view, 26> k_of_the_program = {
     "T_L", "T_U",  "A_L", "A_U",  "p_c", "ν_eff", "ν_i", "X_i", "x_i", "c_i", "c_j",   "u_i", "u_j",
     "d_i", "d_ij", "x_j", "r_ij", "y_j", "k_p",   "k_q", "u_c", "y_i", "η_j", "U_max", "s_0", "y_0"};
+// Of its sentences on comparisons.
+constexpr std::array<std::string_view, 11> k_of_comparisons = {"σ_pt", "δ_E", "P_A", "D_fail",   "p_low", "p_high",
+                                                               "ν_D",  "t_p", "E_n", "u_others", "U_D"};
 
 std::string_view as_letter(std::string_view word) {
     const auto found = std::find_if(k_greek.begin(), k_greek.end(), [&](const auto& g) { return g.first == word; });
@@ -74,6 +77,9 @@ Symbol symbol_of(const std::string& name) {
 
 nlohmann::json symbols_in(const EvaluationRecord& record) {
     std::set<std::string> names(k_of_the_program.begin(), k_of_the_program.end());
+    if (record.comparison) {
+        names.insert(k_of_comparisons.begin(), k_of_comparisons.end());
+    }
     for (const InputQuantity& input : record.inputs) {
         names.insert(input.name);
     }

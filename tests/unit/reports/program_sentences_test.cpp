@@ -48,6 +48,24 @@ TEST(ProgramSentences, AreFoundWithTheirArguments) {
     EXPECT_FALSE(sample().identified("something else").has_value());
 }
 
+/// Numbers of sentences had a hyphen where those of tables have a minus sign; a p below what can be stated was "p = <1E-300".
+TEST(ProgramSentences, NumbersHaveTheSignsOfTables) {
+    const ProgramSentences all(catalogue_file());
+    const std::string many = "All 3 results together are not consistent: chi-square 12 on 2 degrees of freedom, p = ";
+    EXPECT_EQ(all.worded(many + "<1E-300.", "en", "."), many.substr(0, many.size() - 2) + "< 1E-300.");
+    EXPECT_TRUE(all.worded(many + "<1E-300.", "de", ",").ends_with(", p < 1E-300."));
+    EXPECT_TRUE(all.worded(many + "0.012.", "de", ",").ends_with(", p = 0,012."));
+    for (const char* language : {"en", "de", "es", "zh-Hant"}) {
+        const std::string below = sample().worded("the value -1.5 of R-2 -x is missing", language, ".");
+        EXPECT_NE(below.find("\u22121.5"), std::string::npos) << below;
+        EXPECT_NE(below.find("R-2 -x"), std::string::npos) << below;
+    }
+    EXPECT_EQ(with_minus_of_numbers("-0.008; -0.010 mg, 2026-11-30"), "\u22120.008; \u22120.010 mg, 2026-11-30");
+    std::string text = "y = ";
+    append_value(text, "<x");
+    EXPECT_EQ(text, "y = <x");
+}
+
 /// Findings on the register of the laboratory, with every reason that it gives; nothing of them stays English.
 TEST(ProgramSentences, WordTheRegister) {
     const ProgramSentences all(catalogue_file());

@@ -3,10 +3,11 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <numbers>
-#include <system_error>
 #include <vector>
 
+#include "gum/comparison/agreement.h"
 #include "gum/comparison/scores.h"
 #include "gum/rounding.h"
 #include "reports/record/make/record_parts.h"
@@ -21,6 +22,7 @@ constexpr int k_decimals_of_score = 2;
 // Tails below what double precision holds come out as 0, which no probability of a test is.
 constexpr double k_least_probability = 1e-300;
 constexpr const char* k_below_least = "<1E-300";
+constexpr int k_digits_of_limit = 3;
 // Of consistency, of p_low and p_high, of a bias and a pattern.
 constexpr std::array k_limits_of_probabilities = {0.05, 0.025, 0.01};
 
@@ -40,6 +42,13 @@ gum::Signal signal_of(double score, SideOf kind) {
     return std::abs(score) > k_all_that_is_allowed ? gum::Signal::action : gum::Signal::none;
 }
 
+/// A printed number, as a reader takes it.
+double read(const std::string& printed) {
+    double number = std::numeric_limits<double>::quiet_NaN();
+    std::from_chars(printed.data(), printed.data() + printed.size(), number);
+    return number;
+}
+
 std::string printed_on_its_side(const std::optional<double>& score, SideOf kind) {
     constexpr int k_most_decimals = 17;
     if (!score) {
@@ -48,9 +57,7 @@ std::string printed_on_its_side(const std::optional<double>& score, SideOf kind)
     const gum::Signal signal = signal_of(*score, kind);
     for (int decimals = k_decimals_of_score; decimals <= k_most_decimals; ++decimals) {
         std::string text = gum::round_to_quantum(*score, decimals);
-        double printed = 0.0;
-        const auto read = std::from_chars(text.data(), text.data() + text.size(), printed);
-        if (read.ec == std::errc() && signal_of(printed, kind) == signal) {
+        if (signal_of(read(text), kind) == signal) {
             return text;
         }
     }
@@ -138,6 +145,19 @@ std::string printed_probability_beside(double probability, double limit) {
     return probability < k_least_probability
                ? k_below_least
                : gum::round_significant_beside(probability, reports::k_digits_of_u, limits);
+}
+
+std::string printed_limit_in_family(double chance, std::size_t family) {
+    return gum::round_significant(gum::chance_in_family(chance, family), k_digits_of_limit);
+}
+
+std::string printed_probability_in_family(const std::optional<double>& probability, double chance, std::size_t family) {
+    if (!probability || family <= 1 || *probability < k_least_probability) {
+        return printed_probability(probability);
+    }
+    return gum::round_significant_beside(
+        *probability, reports::k_digits_of_u,
+        {gum::chance_in_family(chance, family), read(printed_limit_in_family(chance, family))});
 }
 
 bool is_turn_apart(double first, double second, const gum::Unit& unit) {

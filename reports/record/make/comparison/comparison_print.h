@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 
@@ -39,6 +40,13 @@ namespace gumcert::reports {
 [[nodiscard]] std::string printed_probability(const std::optional<double>& probability);
 /// The same beside the limit of a test, too.
 [[nodiscard]] std::string printed_probability_beside(double probability, double limit);
+
+/// The limit that a p is held against where so many directions are judged side by side, gum::chance_in_family(): three digits.
+[[nodiscard]] std::string printed_limit_in_family(double chance, std::size_t family);
+/// printed_probability() of one of several directions: on its side of that limit, as it is and as it is printed, and not of
+/// those of a single set of points.
+[[nodiscard]] std::string printed_probability_in_family(const std::optional<double>& probability, double chance,
+                                                        std::size_t family);
 
 /// A number with the text that one of these functions makes of it.
 template <class Number>

@@ -248,7 +248,7 @@ void add_assigned_value(ItemMessages& messages) {
         {.code = "GC-COMPARE-0126",
          .where = "",
          .what = "",
-         .rule = "an uncertainty of the assigned value is needed for E_n, zeta and z'",
+         .rule = "an uncertainty of the assigned value is needed for Eₙ, zeta and z'",
          .action = "Ask for results with more digits, or give an assigned value.",
          .severity = gum::Severity::warning},
         [](const gum::ItemResult& item) { return !item.u; },
@@ -354,7 +354,7 @@ void add_remark_on_factor_of_value(const gum::LaboratoryComparison& comparison, 
     const auto is_converted = [](const gum::ItemResult& item) {
         return item.U_of_scores && item.expanded_by != gum::ExpandedBy::scatter && !item.reference_participant;
     };
-    const std::string taken = " is not that of about 95 %: En takes U(X) = k u(X) with the factor for " +
+    const std::string taken = " is not that of about 95 %: Eₙ takes U(X) = k u(X) with the factor for " +
                               in_percent(comparison.score_probability) + " and the degrees of freedom of u(X)";
     if (any_item(comparison, [&](const gum::ItemResult& item) {
             return is_converted(item) && item.expanded_by == gum::ExpandedBy::statement;
@@ -381,7 +381,7 @@ void add_remarks_on_coverage(const Evaluated& evaluated, std::vector<std::string
     }
     if (count_results(comparison, [](const gum::ScoredResult& result) { return result.scatter.has_value(); }) > 0) {
         remarks.emplace_back(
-            "In En of a laboratory the uncertainty of the assigned value is what the scatter of all other results "
+            "In Eₙ of a laboratory the uncertainty of the assigned value is what the scatter of all other results "
             "says: "
             "a result that lies far away does not widen the limit that it is held against.");
     }
@@ -433,17 +433,17 @@ void add_remarks_on_coverage(const Evaluated& evaluated, std::vector<std::string
     }
     if (!converted.empty()) {
         remarks.push_back("The coverage factors of " + text::listed(converted, k_most_names_in_remark) +
-                          " are not those of about 95 %: En takes U = k u with the factor for " +
+                          " are not those of about 95 %: Eₙ takes U = k u with the factor for " +
                           in_percent(comparison.score_probability) + " and the degrees of freedom of u in place of U.");
         const bool of_budget = std::any_of(
             comparison.results.begin(), comparison.results.end(),
             [](const gum::ScoredResult& result) { return result.of_scores && result.uncertainty->of_scores; });
         if (of_budget) {
-            remarks.emplace_back("Of a budget, En takes U for this probability from its distribution.");
+            remarks.emplace_back("Of a budget, Eₙ takes U for this probability from its distribution.");
         }
     }
     if (comparison.score_probability != job.coverage_probability) {
-        remarks.push_back("En is defined for about 95 %: it takes expanded uncertainties for " +
+        remarks.push_back("Eₙ is defined for about 95 %: it takes expanded uncertainties for " +
                           in_percent(comparison.score_probability) + ", whatever the comparison states.");
     }
 }
@@ -507,14 +507,14 @@ void add_remarks_on_correlation(const jobs::ComparisonJob& job, const gum::Labor
     }
     if (count_results(comparison, [](const gum::ScoredResult& result) { return result.en_worst.has_value(); }) > 0) {
         remarks.emplace_back(
-            "Laboratories of one group may share effects, and the job states no correlation for the group. En is given "
+            "Laboratories of one group may share effects, and the job states no correlation for the group. Eₙ is given "
             "for none, and beside it for the worst that is plausible: that the smaller uncertainty is shared whole.");
     }
     if (count_results(comparison, [](const gum::ScoredResult& result) {
             return result.en_worst && !std::isfinite(*result.en_worst);
         }) > 0) {
         remarks.emplace_back(
-            "Where all of the uncertainty of a difference may be common to both sides, no finite En bounds what that "
+            "Where all of the uncertainty of a difference may be common to both sides, no finite Eₙ bounds what that "
             "would do.");
     }
     if (comparison.summary && comparison.summary->agreement && comparison.summary->agreement->is_bounded) {
@@ -525,7 +525,7 @@ void add_remarks_on_correlation(const jobs::ComparisonJob& job, const gum::Labor
             "p_low and p_high are the largest of those for normal scores, for "
             "uncertainties that were estimated each by itself, and for one estimate behind all of them, and the band "
             "of "
-            "the rms En is the widest.");
+            "the rms Eₙ is the widest.");
     }
     if (comparison.items.size() > 1) {
         remarks.emplace_back(
@@ -562,7 +562,7 @@ void add_remarks_on_uncertainties(const gum::LaboratoryComparison& comparison, s
     if (large > 0) {
         remarks.push_back(
             std::to_string(large) + (large > 1 ? " results state" : " result states") +
-            " more than twice the U of the others or of the laboratory's own capability. |En| at or below 1 "
+            " more than twice the U of the others or of the laboratory's own capability. |Eₙ| at or below 1 "
             "says little then: an uncertainty that is stated too large always passes.");
     }
     const std::size_t small = count_results(
@@ -595,7 +595,7 @@ void add_remarks_on_uncertainties(const gum::LaboratoryComparison& comparison, s
     }
     if (count_results(comparison, [](const gum::ScoredResult& point) { return point.en_audited.has_value(); }) > 0) {
         remarks.emplace_back(
-            "En with findings corrected takes the corrected uncertainty of the laboratory, and of the reference "
+            "Eₙ with findings corrected takes the corrected uncertainty of the laboratory, and of the reference "
             "laboratory; the value assigned from other results stays as it is.");
     }
     if (count_results(comparison, [](const gum::ScoredResult& point) {
@@ -609,7 +609,7 @@ void add_remarks_on_uncertainties(const gum::LaboratoryComparison& comparison, s
         count_results(comparison, [](const gum::ScoredResult& point) { return point.U_difference && !point.en; });
     if (without_score > 0) {
         remarks.push_back(std::to_string(without_score) + (without_score > 1 ? " results have" : " result has") +
-                          " no En and no zeta: the uncertainty of the difference from the assigned value comes out as "
+                          " no Eₙ and no zeta: the uncertainty of the difference from the assigned value comes out as "
                           "0, and nothing can be divided by it.");
     }
 }
@@ -626,7 +626,7 @@ void add_remarks_on_what_is_left_out(const gum::LaboratoryComparison& comparison
     if (comparison.singular_vectors > 0) {
         remarks.push_back(std::to_string(comparison.singular_vectors) +
                           (comparison.singular_vectors > 1 ? " vectors have" : " vector has") +
-                          " no En: their covariance is singular, so that a part of the difference has no uncertainty.");
+                          " no Eₙ: their covariance is singular, so that a part of the difference has no uncertainty.");
     }
 }
 

@@ -125,7 +125,7 @@ void add_shared_sources(const ComparisonJob& job, const MethodSide& method, cons
     if (!ambiguous.empty()) {
         record.remarks.push_back("The budgets do not tell which inputs of " + text::listed(ambiguous) +
                                  " are the same quantity: the largest covariance that they can have is taken, which "
-                                 "makes |En| larger.");
+                                 "makes |Eₙ| larger.");
     }
     std::vector<std::string> set_aside;
     for (const std::string& name : sources_in_both(request, method, reference)) {

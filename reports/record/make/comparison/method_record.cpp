@@ -133,11 +133,17 @@ void add_method_agreement(const gum::Agreement& agreement, ComparisonSummary& ro
     row.rms_En = shown(agreement.rms_en, printed_score);
     row.rms_En_low = shown(agreement.rms_en_low, printed_score);
     row.rms_En_high = shown(agreement.rms_en_high, printed_score);
-    row.p_low = shown(agreement.p_low, printed_probability);
-    row.p_high = shown(agreement.p_high, printed_probability);
+    const auto beside = [&](double chance) {
+        return [&agreement, chance](double p) -> Shown<std::optional<double>> {
+            return {p, printed_probability_in_family(p, chance, agreement.family)};
+        };
+    };
+    const auto of_size = beside(gum::k_chance_of_size), of_pattern = beside(gum::k_chance_of_bias_and_pattern);
+    row.p_low = of_size(agreement.p_low);
+    row.p_high = of_size(agreement.p_high);
     if (agreement.is_bounded) {
-        row.p_low_least = shown(agreement.p_low_least, printed_probability);
-        row.p_high_least = shown(agreement.p_high_least, printed_probability);
+        row.p_low_least = of_size(agreement.p_low_least);
+        row.p_high_least = of_size(agreement.p_high_least);
         row.p_mahalanobis_least = agreement.p_mahalanobis_least;
     }
     row.D_fail = shown(agreement.d_fail_smallest, printed_uncertainty);
@@ -151,14 +157,14 @@ void add_method_agreement(const gum::Agreement& agreement, ComparisonSummary& ro
     row.found_with_80_percent = shown(agreement.found_with_80_percent, printed_uncertainty);
     row.found_with_95_percent = shown(agreement.found_with_95_percent, printed_uncertainty);
     row.mahalanobis_square = agreement.mahalanobis_square;
-    row.p_mahalanobis = shown(agreement.p_mahalanobis, printed_probability);
-    row.p_pattern = shown(agreement.p_pattern, printed_probability);
+    row.p_mahalanobis = of_pattern(agreement.p_mahalanobis);
+    row.p_pattern = of_pattern(agreement.p_pattern);
     row.vector_En = shown(agreement.vector_en, printed_en);
     row.rank = static_cast<std::int64_t>(agreement.rank);
     row.ratio_reference = shown(finite(agreement.ratio_reference), printed_ratio);
 }
 
-reports::BiasLineSummary bias_record(const gum::MethodBias& from) {
+reports::BiasLineSummary bias_record(const gum::MethodBias& from, std::size_t family) {
     reports::BiasLineSummary bias;
     bias.against = from.against_position ? "position" : "reference_value";
     const gum::RoundedPair constant = printed_pair(from.line.constant, from.U_constant);
@@ -173,7 +179,8 @@ reports::BiasLineSummary bias_record(const gum::MethodBias& from) {
     bias.chi_square = from.line.chi_square;
     bias.p_value = shown(from.line.p_value, printed_probability);
     if (from.test) {
-        bias.p_no_bias = shown(from.test->p, printed_probability);
+        bias.p_no_bias = {from.test->p,
+                          printed_probability_in_family(from.test->p, gum::k_chance_of_bias_and_pattern, family)};
         bias.p_no_bias_least = from.test->p_least;
     }
     return bias;
@@ -207,7 +214,7 @@ ComparisonSummary summary_record(const gum::MethodSummary& from) {
         }
     }
     if (from.bias) {
-        row.bias = bias_record(*from.bias);
+        row.bias = bias_record(*from.bias, from.agreement.family);
     }
     return row;
 }

@@ -20,7 +20,6 @@ namespace {
 using reports::Comparison;
 using reports::ComparisonSummary;
 
-constexpr double k_significant = 0.025;  // of p_low and p_high
 constexpr double k_all = 1.0 - 1e-9;
 constexpr double k_nearly_all = 0.95;  // of the points count as independent
 constexpr double k_negligible_reference = 1.0 / 3.0;
@@ -98,7 +97,7 @@ private:
         if (row.effective_points < k_nearly_all * static_cast<double>(row.points)) {
             say("The " + points + " are not as many independent proofs: they share effects of their set-up, and by " +
                 "their covariance they tell as much as about " + printed_whole().effective_points.text +
-                " independent points. The band of the rms En, p_low and p_high take the covariance into account.");
+                " independent points. The band of the rms Eₙ, p_low and p_high take the covariance into account.");
         } else {
             say("The covariances say that the " + points + " are independent of each other, or nearly so. Effects of " +
                 "a common set-up that are not in the covariances would make them fewer.");
@@ -117,9 +116,9 @@ private:
             say("Of " + std::to_string(row.family) +
                 " directions the gravest verdict counts. Each is held against limits that right uncertainties of all "
                 "directions miss as rarely as those of one: p_low and p_high of a direction against " +
-                gum::round_significant(limit_of(k_significant, row), 2) +
+                printed_limit_in_family(gum::k_chance_of_size, row.family) +
                 ", p of its bias and of its pattern against " +
-                gum::round_significant(limit_of(gum::k_chance_of_bias_and_pattern, row), 2) + ".");
+                printed_limit_in_family(gum::k_chance_of_bias_and_pattern, row.family) + ".");
         }
     }
 
@@ -136,7 +135,7 @@ private:
             }
         }
         if (!text.empty()) {
-            say("The largest of several |En| is above 1 more often than that of one point, also where all "
+            say("The largest of several |Eₙ| is above 1 more often than that of one point, also where all "
                 "uncertainties are right. The limit that the largest of so many points exceeds in 1 of 100 comparisons "
                 "is the one to hold it against: " +
                 text + ".");
@@ -158,15 +157,15 @@ private:
         if (!comparison_.correlation_unknown) {
             return;
         }
-        say("It is not known whether both methods share a standard, a sensor or another source of uncertainty. En is " +
+        say("It is not known whether both methods share a standard, a sensor or another source of uncertainty. Eₙ is " +
             std::string("stated for no correlation, and for the worst plausible one, where the whole of the smaller ") +
-            "uncertainty is common to both; the truth lies between them. p_low, p_high and the band of the rms En " +
+            "uncertainty is common to both; the truth lies between them. p_low, p_high and the band of the rms Eₙ " +
             "hold for no correlation.");
         if (std::any_of(result_.summaries.begin(), result_.summaries.end(), [](const gum::MethodSummary& of) {
                 return of.worst && !std::isfinite(of.worst->largest_absolute_en);
             })) {
             say("Where both methods have the same expanded uncertainty, all of it could be common to both, and no "
-                "finite En bounds what that would do.");
+                "finite Eₙ bounds what that would do.");
         }
         if (holds_for_any_correlation()) {
             say("The verdict holds whatever share of the smaller uncertainty is common to both methods: none, half and "
@@ -174,7 +173,7 @@ private:
         }
         const bool rests_on_it = whole().verdict == gum::AgreementVerdict::correlation_unknown;
         if (rests_on_it && whole().worst && whole().worst->count_above_1 == 0) {
-            say("No |En| is above 1 for the worst plausible correlation, either; but with what both methods may share, "
+            say("No |Eₙ| is above 1 for the worst plausible correlation, either; but with what both methods may share, "
                 "it "
                 "is not excluded that the differences together contradict what is left of their uncertainty.");
         }
@@ -184,7 +183,7 @@ private:
             const std::string rests = above == 0 && rests_on_it
                                           ? "The agreement rests on the assumption that both methods share nothing: "
                                           : "The number of points above 1 is that of methods that share nothing: ";
-            say(rests + "with the worst plausible correlation |En| would be above 1 at " +
+            say(rests + "with the worst plausible correlation |Eₙ| would be above 1 at " +
                 std::to_string(above_for_worst) + " of " + count_of_points() + ".");
         }
     }
@@ -199,7 +198,7 @@ private:
         if (!larger.empty()) {
             say("The expanded uncertainty of the reference is not smaller than that of the method (rms ratio " +
                 larger +
-                "): |En| at or below 1 shows no contradiction, and cannot confirm the uncertainty of the "
+                "): |Eₙ| at or below 1 shows no contradiction, and cannot confirm the uncertainty of the "
                 "method.");
         }
         const std::string limited = clauses(
@@ -215,7 +214,7 @@ private:
 
     void too_small_differences() {
         const std::string rows =
-            clauses([](const gum::Agreement& row) { return row.p_low < limit_of(k_significant, row); },
+            clauses([](const gum::Agreement& row) { return row.p_low < limit_of(gum::k_chance_of_size, row); },
                     [](const ComparisonSummary& row) { return row.p_low.text; });
         if (!rows.empty()) {
             say("The differences are smaller than their uncertainties let expect (p_low " + rows +
@@ -226,7 +225,7 @@ private:
 
     void too_large_differences() {
         const std::string rows =
-            clauses([](const gum::Agreement& row) { return row.p_high < limit_of(k_significant, row); },
+            clauses([](const gum::Agreement& row) { return row.p_high < limit_of(gum::k_chance_of_size, row); },
                     [](const ComparisonSummary& row) { return row.p_high.text; });
         if (!rows.empty()) {
             say("The differences are larger than their uncertainties let expect (p_high " + rows +
@@ -245,7 +244,7 @@ private:
             return;
         }
         if (!whole().agreement.is_bounded) {
-            say("The uncertainties have finite degrees of freedom: p_low, p_high, the band of the rms En, the power "
+            say("The uncertainties have finite degrees of freedom: p_low, p_high, the band of the rms Eₙ, the power "
                 "and "
                 "the limits of single points are those of Student's distribution, for uncertainties that were "
                 "estimated "
@@ -257,7 +256,7 @@ private:
         say("p_low, p_high and the p of the Mahalanobis distance are the largest of "
             "those for normal scores, for uncertainties that were estimated each by itself, and for one estimate "
             "behind "
-            "all of them, and the band of the rms En is the widest.");
+            "all of them, and the band of the rms Eₙ is the widest.");
         const auto open = [&](const std::string& name, double largest, double least, double limit) {
             if (largest >= limit && least < limit) {
                 say(name + " lies between " + printed_probability(least) + " and " + printed_probability(largest) +
@@ -265,8 +264,8 @@ private:
             }
         };
         const gum::Agreement& row = whole().agreement;
-        open("p_low", row.p_low, row.p_low_least, k_significant);
-        open("p_high", row.p_high, row.p_high_least, k_significant);
+        open("p_low", row.p_low, row.p_low_least, gum::k_chance_of_size);
+        open("p_high", row.p_high, row.p_high_least, gum::k_chance_of_size);
         open("The p of the Mahalanobis distance", row.p_mahalanobis, row.p_mahalanobis_least,
              gum::k_chance_of_bias_and_pattern);
     }
@@ -305,7 +304,7 @@ private:
             return;
         }
         say("The covariance of the differences has rank " + std::to_string(row.rank) + " for " + count_of_points() +
-            ": some differences follow from others. The joint numbers (vector En, p of the Mahalanobis distance) are "
+            ": some differences follow from others. The joint numbers (vector Eₙ, p of the Mahalanobis distance) are "
             "those of what is free to vary.");
         if (row.beyond_covariance > k_visible_beyond * std::sqrt(static_cast<double>(row.points))) {
             say("The differences vary in ways in which their covariance lets them not vary at all: the points share "
@@ -353,14 +352,14 @@ private:
             });
         if (converted > 0) {
             say("At " + std::to_string(converted) + " of " + count_of_points() +
-                " a coverage factor is not that of about 95 %: En takes U = k u with the factor for " +
+                " a coverage factor is not that of about 95 %: Eₙ takes U = k u with the factor for " +
                 certificate::printed_coverage_probability(result_.score_probability) + " %" +
                 " and the degrees of freedom of u there.");
             if (std::any_of(comparison_.points.begin(), comparison_.points.end(), [](const gum::ComparedPoint& point) {
                     return (point.of_scores && point.of_scores->converted) ||
                            (point.reference_of_scores && point.reference_of_scores->converted);
                 })) {
-                say("Of a budget, En takes U for this probability from its distribution.");
+                say("Of a budget, Eₙ takes U for this probability from its distribution.");
             }
         }
     }
@@ -452,7 +451,7 @@ private:
 
     void audit() {
         if (whole().audited) {
-            say("With the findings of the audit on the uncertainties corrected, |En| is above 1 at " +
+            say("With the findings of the audit on the uncertainties corrected, |Eₙ| is above 1 at " +
                 std::to_string(whole().audited->count_above_1) + " of " + count_of_points() + " instead of " +
                 std::to_string(whole().agreement.count_above_1) + ".");
         }

@@ -7,6 +7,18 @@
 namespace gumcert::audit {
 namespace {
 
+TEST(IsOfOtherLanguage, TellsHeadsOfLanguagesInWhichRowsAreNotRead) {
+    for (const char* const head : {"Magnitud", "Incertidumbre típica u(x_i) (mV)", "Unité", "Loi", "Demi-étendue",
+                                   "Contribution à l’incertitude", "標準不確定度", "分布", "Tolerancia"}) {
+        EXPECT_TRUE(is_of_other_language(head)) << head;
+    }
+    for (const char* const head :
+         {"Magnitude", "Component", "Komponente", "Value", "Source of uncertainty", "Divisor", "Distribution",
+          "u_i(y) / mV", "Größe", "Standardunsicherheit", "Ursprung", "c_i ≡ ∂f/∂x"}) {
+        EXPECT_FALSE(is_of_other_language(head)) << head;
+    }
+}
+
 TEST(ColumnOfAHead, KnowsTheLayoutOfM3003) {
     EXPECT_EQ(column_of("Value ± kPa"), Column::stated);
     EXPECT_EQ(column_of("ui(P) ± kPa"), Column::contribution);

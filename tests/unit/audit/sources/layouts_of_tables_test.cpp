@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "audit/audit.h"
@@ -345,6 +346,167 @@ TEST(LayoutsOfTables, ALineThatSlippedIsAskedAbout) {
         EXPECT_NE(finding.severity, FindingSeverity::critical) << finding.rule << finding.what.english();
     }
     EXPECT_TRUE(tells(report, "is no number"));
+}
+
+/// A budget of a voltmeter in one of several layouts: what stands before its rows, the names of two distributions, and how its result is
+/// stated.
+struct Layout {
+    std::string heads, rectangular, normal, u_c, U;
+};
+const std::vector<Layout> k_layouts = {
+    // Two lines of heads, the second one with symbols and a unit (VDI/VDE/DGQ 2618).
+    {"Nr.,Einflussgröße,Verteilung,Grenzwert,Teiler,Standardunsicherheit,Empfindlichkeitskoeffizient,Beitrag\n"
+     ",,,a_i,,u(x_i),c_i,u_i in mV\n",
+     "Rechteck", "Normal", ",kombinierte Standardunsicherheit u_c,,,,,,",
+     ",erweiterte Messunsicherheit U = 2 · u_c,,,,,,"},
+    {"No.,Magnitud,Distribución,Semiancho a (mV),Divisor,Incertidumbre típica u(x_i) (mV),Coeficiente de sensibilidad "
+     "c_i,"
+     "Contribución a la incertidumbre u_i(y) (mV)\n",
+     "rectangular", "normal", ",Incertidumbre típica combinada,,,,,,", ",Incertidumbre expandida (k = 2),,,,,,"},
+    {"No.,Grandeur d’entrée,Loi de distribution,Demi-étendue a (mV),Diviseur,Incertitude-type u(x_i) (mV),"
+     "Coefficient de sensibilité c_i,Contribution à l’incertitude u_i(y) (mV)\n",
+     "rectangulaire", "normale", ",Incertitude-type composée,,,,,,", ",Incertitude élargie (k = 2),,,,,,"},
+    {"項次,不確定度來源,機率分布,半寬 a (mV),除數,標準不確定度 u(x_i) (mV),靈敏係數 c_i,不確定度貢獻 u_i(y) (mV)\n",
+     "矩形", "常態", ",組合標準不確定度,,,,,,", ",擴充不確定度 (k = 2),,,,,,"},
+    {"序号,不确定度来源,概率分布,半宽度 (mV),除数,标准不确定度 (mV),灵敏系数,不确定度贡献 (mV)\n", "均匀", "正态",
+     ",合成标准不确定度,,,,,,", ",扩展不确定度 (k = 2),,,,,,"},
+};
+/// \param divisor      of the second row, which is rectangular
+/// \param is_left_out  whether u_c and U are made without that row
+std::string in_layout(const Layout& layout, double divisor, bool is_left_out) {
+    const double second = 11.0 / divisor, u_c = std::hypot(5.0, is_left_out ? 0.0 : second, 3.0);
+    const auto row = [](const std::string& name, const std::string& shape, double a, double by) {
+        const std::string u = text::significant(a / by, 4);
+        return name + "," + shape + "," + text::shortest(a) + "," + text::significant(by, 4) + "," + u + ",1," + u +
+               "\n";
+    };
+    return layout.heads + row("1,V_s", layout.normal, 10.0, 2.0) + row("2,δV_D", layout.rectangular, 11.0, divisor) +
+           row("3,δV_X", layout.normal, 3.0, 1.0) + layout.u_c + text::significant(u_c, 4) + "\n" + layout.U +
+           text::significant(2.0 * u_c, 3) + "\n";
+}
+
+TEST(LayoutsOfTables, WithHeadsOfOtherLanguagesAndOfTwoLines) {
+    const double root_3 = std::sqrt(3.0);
+    for (const Layout& layout : k_layouts) {
+        const AuditReport sound = report_on(in_layout(layout, root_3, false));
+        ASSERT_EQ(sound.results.size(), 1U) << layout.heads;
+        EXPECT_EQ(accused_of(sound), "") << layout.heads;
+        EXPECT_TRUE(sound.subject.not_read.empty()) << layout.heads;
+        EXPECT_NEAR(sound.results[0].claimed.U, 2.0 * std::hypot(5.0, 11.0 / root_3, 3.0), 0.06) << layout.heads;
+        EXPECT_EQ(sound.results[0].unit, "mV") << layout.heads;
+        EXPECT_EQ(sound.subject.budgets.at(0).rows.at(1).quantity, "δV_D") << layout.heads;
+        const AuditReport left_out = report_on(in_layout(layout, root_3, true));
+        EXPECT_TRUE(finds(left_out, "K01")) << layout.heads;
+        const AuditReport undivided = report_on(in_layout(layout, 1.0, false));
+        EXPECT_TRUE(finds(undivided, "W02")) << layout.heads;
+        EXPECT_NEAR(undivided.results.at(0).audited.U, 2.0 * std::hypot(5.0, 11.0 / root_3, 3.0), 0.06) << layout.heads;
+    }
+}
+
+/// Words of rows are read in English and German: what rows of another language do not say in these, they are not accused of.
+TEST(LayoutsOfTables, WhatWordsOfOtherLanguagesDoNotSayIsNotChecked) {
+    const auto with = [](const std::string& heads, const std::vector<std::string>& names) {
+        std::string table = heads + "\n";
+        for (const std::string& name : names) {
+            table += name + ";mV;0.10;2;0.05\n";
+        }
+        return report_on(table + "u_c;;;;" + text::significant(0.05 * std::sqrt(names.size()), 4) + "\n");
+    };
+    for (const auto& [heads, names] : std::vector<std::pair<std::string, std::vector<std::string>>>{
+             {"Magnitud;Unidad;Semiancho;Divisor;Incertidumbre típica",
+              {"Patrón de referencia", "División de escala", "Operador", "Condiciones ambientales"}},
+             {"Grandeur;Unité;Incertitude;Diviseur;Incertitude-type",
+              {"Étalon de référence", "Fidélité", "Opérateur", "Conditions d'environnement"}},
+             {"不確定度來源;單位;半寬;除數;標準不確定度", {"标准器", "分辨力", "人员", "环境温度"}}}) {
+        const AuditReport report = with(heads, names);
+        ASSERT_EQ(report.results.size(), 1U) << heads;
+        for (const char* const rule : {"B01", "B02", "B04", "B05"}) {
+            EXPECT_FALSE(finds(report, rule)) << rule << heads;
+        }
+        EXPECT_TRUE(std::any_of(report.not_checked.begin(), report.not_checked.end(), [](const RuleNotChecked& rule) {
+            return rule.rule == "B01";
+        })) << heads;
+    }
+    const AuditReport english =
+        with("Quantity;Unit;Half-width;Divisor;Standard uncertainty", {"Reference standard", "Scale", "Loading"});
+    EXPECT_TRUE(finds(english, "B01"));
+    EXPECT_TRUE(finds(english, "B05"));
+}
+
+/// U as a product of numbers: k is the one that is no u.
+TEST(LayoutsOfTables, KOfAProductIsNoU) {
+    const auto with = [](const std::string& line) {
+        return report_on(
+            "Quantity;Unit;U or a;Distribution;Divisor;c_i;Contribution\nStandard;mV;0.10;normal;2;1;0.05\n"
+            "Resolution;mV;0.05;rectangular;1.732;1;0.02887\nRepeatability;mV;0.03;normal;1;1;0.03\n"
+            "u_c;mV;;;;;0.0651\n" +
+            line + ";;;;;;\n");
+    };
+    for (const char* const line : {"U = k·u_c = 0.0651·2 = 0.13 mV", "U = k × u_c = 0.0651 × 2.00 = 0.13 mV",
+                                   "U = k·u_c = 2·0.0651 mV = 0.13 mV", "U = k·u_c = 2·0.0651 = 0.13 mV",
+                                   "U = k · u(y) = 2 × (0.05² + 0.0289² + 0.03²)^(1/2) = 0.13 mV"}) {
+        const AuditReport report = with(line);
+        ASSERT_EQ(report.results.size(), 1U) << line;
+        EXPECT_EQ(report.results[0].claimed.k, 2.0) << line;
+        EXPECT_FALSE(finds(report, "K03")) << line;
+        EXPECT_FALSE(finds(report, "K01")) << line;
+    }
+    EXPECT_TRUE(finds(with("U = k·u_c = 2·0.0651 mV = 0.26 mV"), "K01"));
+}
+
+TEST(LayoutsOfTables, OfPublishedTables) {
+    // JCGM 100:2008, table H.1: symbols and what they stand for in the heads.
+    const std::string of_gum =
+        "Standard uncertainty component u(x_i),Source of uncertainty,Value of standard uncertainty u(x_i),c_i ≡ "
+        "∂f/∂x_i,"
+        "u_i ≡ |c_i| u(x_i) (nm),Degrees of freedom\n"
+        "u(l_s),Calibration of standard end gauge,25 nm,1,25,18\nu(d),Measured difference,9.7 nm,1,9.7,25.6\n"
+        "u(δθ),Difference in temperatures,0.029 °C,575,16.7,2\n";
+    const AuditReport gum = report_on(of_gum + "u_c = 31.6 nm\n");
+    ASSERT_EQ(gum.results.size(), 1U);
+    EXPECT_FALSE(finds(gum, "K01"));
+    EXPECT_NEAR(gum.results[0].recomputed.u_c, std::hypot(25.0, 9.7, 16.7), 0.05);
+    EXPECT_TRUE(finds(report_on(of_gum + "u_c = 26.8 nm\n"), "K01"));
+    // EA-4/02 writes what k is in the product.
+    for (const char* const words :
+         {"Expanded uncertainty U = k · u(y) = 1.65 × 31.6 nm", "U = k·u(l_X) = 1.65·31.6 nm"}) {
+        const AuditReport ea = report_on(
+            "Quantity X_i,Estimate x_i,Standard uncertainty u(x_i),Probability distribution,Sensitivity coefficient "
+            "c_i,"
+            "Uncertainty contribution u_i(y)\nl_S,50.000 mm,25 nm,normal,1.0,25 nm\nδl,0 nm,9.7 nm,normal,1.0,9.7 nm\n"
+            "δt,0 °C,0.029 °C,rectangular,575 nm/°C,16.7 nm\nl_X,50.000 mm,,,,31.6 nm\n\n" +
+            std::string(words) + ",52.1 nm\n");
+        ASSERT_EQ(ea.results.size(), 1U) << words;
+        EXPECT_NEAR(ea.results[0].claimed.k, 1.65, 1e-12) << words;
+        EXPECT_FALSE(finds(ea, "K01")) << words;
+    }
+    for (const char* const again : {"", ",53 nm"}) {
+        const AuditReport one_cell = report_on(
+            "Quantity X_i,Standard uncertainty u(x_i),Sensitivity coefficient c_i,Uncertainty contribution u_i(y)\n"
+            "l_S,25 nm,1.0,25 nm\nδl,9.7 nm,1.0,9.7 nm\nl_X,,,26.8 nm\n\nU = k·u(l_X) = 2·26.8 nm ≅ 53 nm" +
+            std::string(again) + "\n");
+        ASSERT_EQ(one_cell.results.size(), 1U) << again;
+        EXPECT_EQ(one_cell.results[0].claimed.U, 53.0) << again;
+        EXPECT_EQ(one_cell.results[0].claimed.k, 2.0) << again;
+    }
+    // ISO 14253-2: the component has a name in one column, and a number in another.
+    const std::string puma =
+        "Component name,Evaluation type,Distribution type,Variation limit a [µm],Distribution factor b,"
+        "Uncertainty component u_xx [µm]\nMicrometer,B,Rectangular,3.0,0.6,1.8\nTemperature,B,U,1.5,0.7,1.05\n"
+        "Repeatability,A,Gaussian,,,1.2\nCombined standard uncertainty u_c,,,,,";
+    const AuditReport iso = report_on(puma + "2.41\nExpanded uncertainty U (k = 2),,,,,4.8\n");
+    ASSERT_EQ(iso.results.size(), 1U);
+    EXPECT_FALSE(finds(iso, "K01"));
+    const AuditReport two_lines = report_on(
+        "Component,Evaluation,Distribution,Variation limit,Variation limit,Distribution factor,Uncertainty "
+        "component\n"
+        "name,type,type,a* [influence units],a [µm],b,u_xx [µm]\nMicrometer,B,Rectangular,,6.0,0.6,3.6\n"
+        "Temperature,B,U,2 °C,2.8,0.7,1.96\nRepeatability,A,,,,,1.2\nCombined standard uncertainty "
+        "u_c,,,,,,4.27\n");
+    ASSERT_EQ(two_lines.results.size(), 1U);
+    EXPECT_EQ(two_lines.results[0].claimed.u_c, 4.27);
+    EXPECT_FALSE(finds(two_lines, "K01"));
+    EXPECT_TRUE(finds(report_on(puma + "1.59\nExpanded uncertainty U (k = 2),,,,,3.2\n"), "K01"));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "audit/audit.h"
@@ -50,6 +51,10 @@ AuditReport audited(const std::vector<Row>& rows, const std::string& lines = "")
     const double u_c = std::sqrt(variance);
     table += "value,V,10.012\nu_c,V," + text::significant(u_c, 3) + "\nk,,2\nU,V," + text::significant(2.0 * u_c, 2) +
              "\ncoverage probability,,95.45 %\n" + lines;
+    return audit(subject_of(workbook::read_csv(table, "b.csv", "b"), "b.csv"), all_rules());
+}
+
+AuditReport audited_text(const std::string& table) {
     return audit(subject_of(workbook::read_csv(table, "b.csv", "b"), "b.csv"), all_rules());
 }
 
@@ -120,6 +125,24 @@ TEST(SoundTables, AreNotAccusedOfOneRowByItsWords) {
         {"Scattering", 0.004, 1.0, "normal", "", ""},
         {"Certainty of the setting", 0.006, root_3, "rectangular", "", ""},
         {"Digital filter", 0.006, root_3, "rectangular", "", "digital voltmeter, ±0.006 V"},
+        // half of a step stands in the words, and the step nowhere
+        {"Resolution of the item", 0.005, root_3, "rectangular", "", "resolution, half of the digit: 0.005 V"},
+        {"Half of the resolution 0.005 V", 0.005, root_3, "rectangular", "", ""},
+        {"Half of the resolution", 0.005, root_3, "rectangular", "",
+         "half of the smallest step of the resolution, 0.01 V"},
+        {"Resolution (half a digit = 0.005 V)", 0.005, root_3, "rectangular", "", ""},
+        {"Resolution ±0.005 V", 0.005, root_3, "rectangular", "", ""},
+        {"Indication", 0.005, root_3, "rectangular", "", "±1 digit, digit 0.005 V"},
+        {"Noise", 0.005, root_3, "rectangular", "", "noise, 2 digits of resolution 0.005 V"},
+        {"Resolution/2 = 0.005 V", 0.005, root_3, "rectangular", "", ""},
+        {"Resolution: 0.005 V (half of 0.01 V)", 0.005, root_3, "rectangular", "", ""},
+        {"Auflösung (halber Ziffernschritt 0.005 V)", 0.005, root_3, "Rechteck", "", ""},
+        {"Readability", 0.005, root_3, "rectangular", "", "0.5 digit = 0.005 V, readability of the display"},
+        // a band and its half, a drift between certificates, a temperature that is no voltage
+        {"Loading", 0.005, root_3, "rectangular", "", "tolerance band 0.010 V (±0.005 V), conformity verified"},
+        {"Drift of the standard", 0.005, root_3, "rectangular", "",
+         "difference between two certificates 0.010 V, half of it"},
+        {"Temperature", 0.005, root_3, "rectangular", "", "(23 ± 2) °C, coefficient 0.0025 V/K"},
         // the digits of u do not say what its columns say
         {"Reference gauge", 0.0173, root_3, "rectangular", "", "within class limits ±0.0173 V, conformity verified"},
     };
@@ -132,6 +155,130 @@ TEST(SoundTables, AreNotAccusedOfOneRowByItsWords) {
             all.erase(all.begin() + 5);
             EXPECT_EQ(accusations(audited(all)), "") << written(row);
         }
+    }
+}
+
+/// U of a budget in which only u stands beside the words, and what of it is major.
+TEST(SoundTables, AreNotAccusedOfUAloneByTheWordsOfItsRow) {
+    const auto with = [](const std::string& words, const std::string& distribution, double u) {
+        return audit(
+            subject_of(workbook::read_csv("Quantity,Distribution,u / mV\n\"" + words + "\"," + distribution + "," +
+                                              text::significant(u, 4) +
+                                              "\nRepeatability (mean of 10; s/√10),normal,0.15\nLoading,rectangular,"
+                                              "0.046\nu_c,," +
+                                              text::significant(std::hypot(u, 0.15, 0.046), 4) + "\n",
+                                          "b.csv", "b"),
+                       "b.csv"),
+            all_rules());
+    };
+    const double root_3 = std::sqrt(3.0);
+    for (const auto& [words, distribution, u] : std::vector<std::tuple<std::string, std::string, double>>{
+             {"Standard uncertainty from the certificate, 0.2 mV", "normal", 0.2},
+             {"Standardunsicherheit des Kalibrierscheins 0.2 mV", "normal", 0.2},
+             {"Drift: difference between two certificates 0.20 mV, half of it", "normal", 0.1},
+             {"Temperature (23 ± 2) °C, coefficient 0.05 mV/K", "rectangular", 0.1 / root_3},
+             {"Power supply (230 ± 5) V", "rectangular", 0.01 / root_3},
+             {"Half of the resolution 0.1 mV", "rectangular", 0.1 / root_3},
+             {"Half of the resolution 0.1 mV", "rectangular", 0.05 / root_3},
+             {"標準器漂移 0.2 mV", "矩形", 0.1}}) {
+        const AuditReport report = with(words, distribution, u);
+        for (const char* const rule : {"U08", "U09", "U14"}) {
+            EXPECT_FALSE(has(report, rule)) << rule << ": " << words;
+        }
+    }
+    // And the same with their errors.
+    EXPECT_TRUE(has(with("Certificate U = 0.4 mV", "normal", 0.2), "U14"));
+    EXPECT_TRUE(has(with("Loading ±0.1 mV", "rectangular", 0.0577 / 10.0), "U08"));
+    EXPECT_TRUE(has(with("Half of the resolution 0.1234 mV", "rectangular", 0.1234), "U09"));
+    EXPECT_TRUE(has(with("Resolution 0.1 mV", "rectangular", 0.1 / root_3), "U09"));
+}
+
+/// Of a table without a column of u: 1 mV over √12, times c = 2. What stands before the number is no half of it.
+TEST(SoundTables, AreNotAccusedOfAStepByTheirContributions) {
+    const auto with = [](const std::string& words, double divisor) {
+        const double part = 2.0 / divisor;
+        return audited_text("Quantity;Unit;U or a;Distribution;Divisor;c_i;Contribution\n" + words +
+                            ";mV;1;rectangular;" + text::significant(divisor, 4) + ";2;" + text::significant(part, 4) +
+                            "\nRepeatability;mV;0.5;normal;1;1;0.5\nu_c;mV;;;;;" +
+                            text::significant(std::hypot(part, 0.5), 4) + "\n");
+    };
+    const auto with_contribution = [](const std::string& words, double divisor) {
+        const double part = 2.0 / divisor;
+        return audited_text("Quantity;Unit;Distribution;c_i;Contribution\n" + words + ";mV;rectangular;2;" +
+                            text::significant(part, 4) + "\nRepeatability;mV;normal;1;0.5\nu_c;mV;;;" +
+                            text::significant(std::hypot(part, 0.5), 4) + "\n");
+    };
+    for (const char* const words :
+         {"Resolution, 6 digits: 1 mV", "Resolution, 4 1/2 digit: 1 mV", "Resolution 3½ digit display, 1 mV",
+          "Half scale, resolution 1 mV", "Resolution at half load, 1 mV", "Auflösung im Halblastpunkt 1 mV",
+          "Resolution of DVM range 0.5 V: 1 mV", "Resolution 0.5 ppm, 1 mV", "Resolution of two readings 1/2, 1 mV",
+          "Resolution ±1 mV"}) {
+        for (const AuditReport& report : {with(words, std::sqrt(12.0)), with_contribution(words, std::sqrt(12.0))}) {
+            EXPECT_FALSE(has(report, "U09")) << words;
+            EXPECT_FALSE(has(report, "W02")) << words;
+        }
+    }
+    // What is half of a step is so beside c, too; and a step over √3 is found by what it is.
+    EXPECT_FALSE(has(with_contribution("Half of the digit: 1 mV", std::sqrt(3.0)), "U09"));
+    for (const char* const words : {"Resolution, 6 digits: 1 mV", "Resolution of DVM range 0.5 V: 1 mV",
+                                    "Resolution at half load, 1 mV", "Semiconductor sensor, resolution 1 mV"}) {
+        const AuditReport report = with_contribution(words, std::sqrt(3.0));
+        EXPECT_TRUE(has(report, "U09")) << words;
+        EXPECT_NEAR(report.results.at(0).audited.u_c, std::hypot(2.0 / std::sqrt(12.0), 0.5), 0.002) << words;
+    }
+}
+
+/// k of a certificate stands in the name of the row, U and the divisor in its columns.
+TEST(SoundTables, AreDividedByTheKInTheNameOfARow) {
+    const auto with = [](const std::string& name, const std::string& divisor) {
+        const double u = 0.53 / std::stod(divisor), u_c = std::hypot(u, 0.173, 0.11);
+        return audited_text("Quantity,Unit,Value ±,Divisor,u\n\"" + name + "\",mV,0.53," + divisor + "," +
+                            text::significant(u, 3) + "\nDrift,mV,0.30,1.732,0.173\nLoading,mV,0.11,1,0.11\nu_c,mV,,," +
+                            text::significant(u_c, 3) + "\nU (k = 2),mV,,," + text::significant(2.0 * u_c, 2) + "\n");
+    };
+    for (const auto& [name, divisor] :
+         std::vector<std::pair<std::string, std::string>>{{"Standard certificate (k = 2.65)", "2.65"},
+                                                          {"Standard certificate (k = 2)", "1.96"},
+                                                          {"Standard certificate (k = 2)", "1.7321"},
+                                                          {"Standard certificate (k = 2)", "1"},
+                                                          {"Certificate (k = 3), U converted to k = 2", "2"},
+                                                          {"Certificate k = 3, here U for k = 2", "2"},
+                                                          {"Two weights, certificate (k = 3)", "2"},
+                                                          {"Certificate (k = 2.65), U recalculated to 95 %", "2"},
+                                                          {"Weights, 5 pieces, certificate k = 2", "4.472"},
+                                                          {"Certificate of gauge block pair (k = 2)", "2.828"},
+                                                          {"Certificate (k = 2), share of 1/2", "4"},
+                                                          {"Certificate EX-17 (k = 2)", "2000"},
+                                                          {"Certificate (k = 2), 99 % limits", "2.576"},
+                                                          {"Certificate with k = 2, tolerance limits", "3"},
+                                                          {"Standard", "3"}}) {
+        EXPECT_FALSE(has(with(name, divisor), "U13")) << name << divisor;
+    }
+    EXPECT_TRUE(has(with("Standard certificate (k = 2)", "3"), "U13"));
+    const AuditReport report = with("Standard certificate (k = 2.65)", "2");
+    EXPECT_TRUE(has(report, "U13"));
+    EXPECT_NEAR(report.results.at(0).audited.U, 2.0 * std::hypot(0.2, 0.173, 0.11), 0.01);
+}
+
+/// The distribution says by what the column is divided; that the column of a resolution holds the step, nobody says. The finding
+/// expected √3, and its effect was that of √12.
+TEST(SoundTables, AResolutionIsCorrectedAsItsDistributionSays) {
+    for (const char* const divisor : {"1", "2"}) {
+        const double u = 50.0 / std::stod(divisor), u_c = std::hypot(u, 6.35, 1.0);
+        const AuditReport report =
+            audit(subject_of(workbook::read_csv(
+                                 "Source of uncertainty,Value ± (mV),Distribution,Divisor,Standard uncertainty (mV)\n"
+                                 "Calibrator,2.0,normal,2,1.0\nDrift,11,rectangular,√3,6.35\n"
+                                 "Resolution of the DVM (half of the digit),50.0,rectangular," +
+                                     std::string(divisor) + "," + text::shortest(u) +
+                                     "\nCombined standard uncertainty,,,," + text::significant(u_c, 4) +
+                                     "\nExpanded uncertainty (k = 1.65),,,," + text::significant(1.65 * u_c, 3) + "\n",
+                                 "b.csv", "b"),
+                             "b.csv"),
+                  all_rules());
+        EXPECT_TRUE(has(report, "W02")) << divisor;
+        EXPECT_NEAR(report.results.at(0).audited.U, 1.65 * std::hypot(50.0 / std::sqrt(3.0), 6.35, 1.0), 0.05)
+            << divisor;
     }
 }
 
@@ -191,10 +338,6 @@ TEST(SoundTables, StateTheirDecisionRuleInWords) {
     ASSERT_EQ(words.subject.not_read.size(), 1U);
     EXPECT_NE(words.subject.not_read[0].english().find("as agreed in the order"), std::string::npos);
     EXPECT_TRUE(has(audited(k_sound, limits + "verdict,pass\n"), "D01"));
-}
-
-AuditReport audited_text(const std::string& table) {
-    return audit(subject_of(workbook::read_csv(table, "b.csv", "b"), "b.csv"), all_rules());
 }
 
 TEST(SoundTables, ContributionsAloneAreInTheUnitOfTheirHead) {

@@ -41,6 +41,16 @@ TEST(Symbols, OfARecordAreThoseOfItsQuantities) {
     EXPECT_NE(all.find("\"T_L\""), std::string::npos);
 }
 
+TEST(Symbols, OfComparisonsAreThoseOfTheirScores) {
+    EvaluationRecord record = test::sample_budget_record();
+    EXPECT_EQ(symbols_in(record).dump().find("σ_pt"), std::string::npos);
+    record.comparison.emplace();
+    const std::string all = symbols_in(record).dump();
+    for (const char* name : {"σ_pt", "δ_E", "P_A", "D_fail", "p_high", "u_others"}) {
+        EXPECT_NE(all.find(std::string("\"") + name), std::string::npos) << name;
+    }
+}
+
 TEST(Symbols, OfEquationsAreThoseThatTheyDefine) {
     EvaluationRecord record = test::sample_budget_record();
     record.model = ModelSummary{.equations = {"rho_a = one·p", "q_z=2"}, .unknowns = {"w_u"}};

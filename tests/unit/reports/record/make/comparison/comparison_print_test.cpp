@@ -4,12 +4,14 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <optional>
 #include <random>
 #include <string>
 #include <utility>
 
+#include "gum/comparison/agreement.h"
 #include "gum/comparison/scores.h"
 
 namespace gumcert::reports {
@@ -64,6 +66,30 @@ TEST(ComparisonPrint, AProbabilityIsPrintedOnItsSideOfTheLimits) {
     EXPECT_EQ(printed_probability_beside(0.09996, 0.1), "0.09996");
     EXPECT_EQ(printed_probability_beside(1e-310, 0.1), "<1E-300");
     EXPECT_EQ(printed_probability(std::nullopt), "");
+}
+
+/// p_high of one of three directions was printed as 0.02495, and its limit is 0.0084; 0.01251 and 0.01289 of two were both
+/// 0.013, on both sides of 0.01258.
+TEST(ComparisonPrint, AProbabilityOfADirectionIsPrintedOnItsSideOfTheLimitOfAllOfThem) {
+    EXPECT_EQ(printed_limit_in_family(0.025, 3), "0.00840");
+    EXPECT_EQ(printed_probability_in_family(0.02495, 0.025, 3), "0.025");
+    EXPECT_EQ(printed_probability_in_family(0.02495, 0.025, 1), "0.02495");
+    EXPECT_EQ(printed_probability_in_family(0.01251, 0.025, 2), "0.0125");
+    EXPECT_EQ(printed_probability_in_family(0.01289, 0.025, 2), "0.013");
+    EXPECT_EQ(printed_probability_in_family(1e-310, 0.025, 2), "<1E-300");
+    EXPECT_EQ(printed_probability_in_family(std::nullopt, 0.025, 2), "");
+    for (const std::size_t family : {2U, 3U, 7U}) {
+        for (const double chance : {gum::k_chance_of_size, gum::k_chance_of_bias_and_pattern}) {
+            const double limit = gum::chance_in_family(chance, family);
+            const double printed_limit = std::stod(printed_limit_in_family(chance, family));
+            for (int i = -300; i <= 300; ++i) {
+                const double p = limit * (1.0 + 1e-4 * (i + 0.5));  // none is the limit itself
+                const double printed = std::stod(printed_probability_in_family(p, chance, family));
+                EXPECT_EQ(printed < limit, p < limit) << p;
+                EXPECT_EQ(printed < printed_limit, p < printed_limit) << p;
+            }
+        }
+    }
 }
 
 TEST(ComparisonPrint, AnglesATurnApart) {

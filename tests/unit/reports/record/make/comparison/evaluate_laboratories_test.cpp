@@ -802,7 +802,7 @@ TEST(EvaluateLaboratories, WhatIsLeftOutIsSaid) {
     job.items[0].assigned_value.participant = "L1";
     job.correlations = {{0, 1, 1.0}};
     EXPECT_FALSE(evaluated(job).points[1].En.number);
-    EXPECT_THAT(evaluated(job).remarks, testing::Contains(HasSubstr("1 result has no En")));
+    EXPECT_THAT(evaluated(job).remarks, testing::Contains(HasSubstr("1 result has no Eₙ")));
     job.results[1].value = 10.3;  // what is the same in both cannot differ
     EXPECT_THROW((void)evaluated(job), gum::InputError);
 
@@ -819,7 +819,7 @@ TEST(EvaluateLaboratories, WhatIsLeftOutIsSaid) {
                         .correlation = Eigen::MatrixXd::Ones(2, 2),
                         .reference_correlation = Eigen::MatrixXd::Ones(2, 2)}};
     EXPECT_THAT(evaluated(vectors).vectors, IsEmpty());
-    EXPECT_THAT(evaluated(vectors).remarks, testing::Contains(HasSubstr("2 vectors have no En")));
+    EXPECT_THAT(evaluated(vectors).remarks, testing::Contains(HasSubstr("2 vectors have no Eₙ")));
 
     // What the job says of a given value and of a result.
     ComparisonJob given_value = job_of({10.0, 10.3}, {0.1, 0.1});

@@ -112,7 +112,7 @@ TEST(MethodRecord, MaximumPermissibleErrorAsOnlyTerm) {
     EXPECT_EQ(record.summary.front().direction, "all");
     EXPECT_EQ(*record.summary.front().count_above_1_audited, 1);
     EXPECT_EQ(record.summary.front().D_fail.text, "21");
-    EXPECT_THAT(joined_remarks(record), HasSubstr("corrected, |En| is above 1 at 1 of 1 point instead of 0."));
+    EXPECT_THAT(joined_remarks(record), HasSubstr("corrected, |Eₙ| is above 1 at 1 of 1 point instead of 0."));
 }
 
 TEST(MethodRecord, FillsEveryNumberOfASoundComparison) {
@@ -211,7 +211,7 @@ TEST(MethodRecord, UnknownCorrelationIsShownForTheWorst) {
     EXPECT_EQ(*record.summary.front().count_above_1_worst, 1);
     EXPECT_EQ(record.summary.front().verdict, "correlation_unknown");
     EXPECT_THAT(joined_remarks(record), HasSubstr("It is not known whether both methods share"));
-    EXPECT_THAT(joined_remarks(record), HasSubstr("|En| would be above 1 at 1 of 6 points."));
+    EXPECT_THAT(joined_remarks(record), HasSubstr("|Eₙ| would be above 1 at 1 of 6 points."));
 }
 
 TEST(MethodRecord, EqualUncertaintiesOfUnknownCorrelationHaveNoBound) {
@@ -225,7 +225,7 @@ TEST(MethodRecord, EqualUncertaintiesOfUnknownCorrelationHaveNoBound) {
     EXPECT_FALSE(record.summary.front().max_abs_En_worst.number);
     EXPECT_EQ(*record.summary.front().count_above_1_worst, 1);
     EXPECT_EQ(record.summary.front().verdict, "correlation_unknown");
-    EXPECT_THAT(joined_remarks(record), HasSubstr("no finite En bounds"));
+    EXPECT_THAT(joined_remarks(record), HasSubstr("no finite Eₙ bounds"));
 }
 
 TEST(MethodRecord, WordsNeverPraiseWhatIsNotShown) {
@@ -271,7 +271,7 @@ TEST(MethodRecord, SinglePointsAbove1AreHeldAgainstChance) {
     unknown.correlation_unknown = true;
     record = compared(unknown);
     EXPECT_EQ(record.summary.front().verdict, "correlation_unknown");
-    EXPECT_THAT(joined_remarks(record), HasSubstr("share nothing: with the worst plausible correlation |En| would be "
+    EXPECT_THAT(joined_remarks(record), HasSubstr("share nothing: with the worst plausible correlation |Eₙ| would be "
                                                   "above 1 at 2 of 6 points."));
     std::vector<Stated> three = sound();  // two of six may be chance
     three[0].D = 2.05;
