@@ -115,21 +115,12 @@ void add_missing_contribution(const AuditSubject& subject, std::vector<std::size
     findings.add(std::move(*finding), severity);
 }
 
-/// Whether what the words of the rows do not say is left out; else it is told that nobody knows.
-bool reads_words(const AuditedBudget& budget, FindingCollector& findings) {
-    if (budget.in_other_language) {
-        findings.leave_unchecked(
-            say("{table}: words of rows are read in English and German, and the heads of the table are of another "
-                "language",
-                budget.place));
-    }
-    return !budget.in_other_language;
-}
 /// Budgets that leave something out, of those whose words are read.
 std::vector<std::size_t> budgets_without(const AuditSubject& subject, FindingCollector& findings,
                                          const std::function<bool(const AuditedBudget&)>& leaves_out) {
-    return budgets_where(
-        subject, [&](const AuditedBudget& budget) { return leaves_out(budget) && reads_words(budget, findings); });
+    return budgets_where(subject, [&](const AuditedBudget& budget) {
+        return leaves_out(budget) && reads_words(budget, budget.place, findings);
+    });
 }
 
 /// What B01 asks of a budget: the checklist of its method, and of the minimum of every method what the checklist does not
@@ -178,7 +169,7 @@ void required_contributor_missing(const AuditSubject& subject, FindingCollector&
         }
     };
     for (std::size_t i = 0; i < subject.budgets.size(); ++i) {
-        if (subject.budgets[i].rows.empty() || !reads_words(subject.budgets[i], findings)) {
+        if (subject.budgets[i].rows.empty() || !reads_words(subject.budgets[i], subject.budgets[i].place, findings)) {
             continue;
         }
         const std::vector<RowWithName> rows = named_rows(subject.budgets[i]);

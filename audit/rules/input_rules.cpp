@@ -307,11 +307,7 @@ void specification_without_evidence(const AuditSubject& subject, FindingCollecto
                              "zertifikat", "inspect", "checked", "tested"})) {
             return;
         }
-        if (at.of.in_other_language) {
-            findings.leave_unchecked(
-                say("{table}: words of rows are read in English and German, and the heads of the table are of another "
-                    "language",
-                    at.is.place));
+        if (!reads_words(at.of, at.is.place, findings)) {
             return;
         }
         AuditFinding finding = finding_at(
@@ -437,11 +433,7 @@ void certificate_without_k(const AuditSubject& subject, FindingCollector& findin
         if (is_standard || row.contributor == Contributor::reference_drift) {
             return;
         }
-        if (at.of.in_other_language) {
-            findings.leave_unchecked(
-                say("{table}: words of rows are read in English and German, and the heads of the table are of another "
-                    "language",
-                    at.is.place));
+        if (!reads_words(at.of, at.is.place, findings)) {
             return;
         }
         const bool halved = row.origin_value && is_about(row.used_u, 0.5 * *row.origin_value);

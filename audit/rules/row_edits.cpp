@@ -173,6 +173,16 @@ bool mentions(const AuditedRow& row, const std::vector<std::string_view>& words)
     return mentions(text_of_row(row), words);
 }
 
+bool reads_words(const AuditedBudget& budget, const std::string& place, FindingCollector& findings) {
+    if (budget.in_other_language) {
+        findings.leave_unchecked(
+            say("{table}: words of rows are read in English and German, and the heads of the table are of another "
+                "language",
+                place));
+    }
+    return !budget.in_other_language;
+}
+
 bool u_differs(const AuditedRow& row, double expected, double relative, double left_open) {
     return std::abs(row.used_u - expected) > row.u_half_step + left_open + relative * std::abs(expected);
 }

@@ -9,6 +9,7 @@
 
 #include "audit/audited_budget.h"
 #include "audit/finding.h"
+#include "audit/rule.h"
 #include "audit/subject.h"
 
 namespace gumcert::audit {
@@ -64,6 +65,9 @@ void for_each_row(const AuditSubject& subject, const std::function<void(const Ro
 /// Whether a text has one of some words, given in small letters.
 [[nodiscard]] bool mentions(const std::string& text_of_row, const std::vector<std::string_view>& words);
 [[nodiscard]] bool mentions(const AuditedRow& row, const std::vector<std::string_view>& words);
+/// Whether the words of the rows of a budget are read, so that what they do not say is left out; else it is told that nobody knows.
+/// \param place  of what is left unchecked: the budget, or a row of it
+[[nodiscard]] bool reads_words(const AuditedBudget& budget, const std::string& place, FindingCollector& findings);
 
 /// True where the u that a row uses is another number than it should be: further away than a relative deviation, the
 /// digits of u, and what is left open of the expected number itself.

@@ -1196,6 +1196,7 @@ std::string_view factor_of_u(std::string_view product) {
 }
 
 constexpr std::string_view k_signs_of_product[] = {"·", "×", "*", "⋅", "x "};
+constexpr std::string_view k_signs_of_equality[] = {"=", "≅", "≈", "≃"};
 
 /// What k is in a product of numbers.
 struct FactorInNumbers {
@@ -1231,8 +1232,9 @@ FactorInNumbers factor_in_numbers(std::string_view product) {
             return {.k = is_sum && may_be_k(one) ? first : std::string_view(), .is_open = is_sum && !may_be_k(one)};
         }
         const std::string_view behind = trimmed(rest.substr(second.size()));
-        const bool has_unit = !behind.empty() && !behind.starts_with('=') && !behind.starts_with("≅") &&
-                              !behind.starts_with("≈") && !behind.starts_with("≃");
+        const bool has_unit =
+            !behind.empty() && std::none_of(std::begin(k_signs_of_equality), std::end(k_signs_of_equality),
+                                            [behind](std::string_view sign) { return behind.starts_with(sign); });
         if (may_be_k(one) &&
             (has_unit || !may_be_k(other) || one == other || (is_usual_k(one) && !is_usual_k(other)))) {
             return {.k = first};
@@ -1248,7 +1250,7 @@ FactorInNumbers factor_in_numbers(std::string_view product) {
 /// 59 mg of "k·u(m_X) = 2·29.3 mg ≅ 59 mg"; empty where a product ends the text.
 std::string_view number_at_end(std::string_view product) {
     std::size_t last = std::string_view::npos, behind = 0;
-    for (const std::string_view sign : {"=", "≅", "≈", "≃"}) {
+    for (const std::string_view sign : k_signs_of_equality) {
         const std::size_t at = product.rfind(sign);
         if (at != std::string_view::npos && (last == std::string_view::npos || at > last)) {
             last = at;

@@ -465,8 +465,6 @@ bool may_be_U_of(const Heads* heads, const std::string& unit) {
            });
 }
 
-}  // namespace
-
 /// Whether the numbers behind a cell are the one that its text ends with: "U = k·u(m_X) = 2·29.3 mg = 59 mg | 59 mg".
 bool repeats_number(const SheetView& sheet, const SheetView::Row& row, std::size_t cell, const std::string& text) {
     const std::optional<NumberWithUnit> held = sheet.number_in_text(text, *row[cell]);
@@ -475,6 +473,9 @@ bool repeats_number(const SheetView& sheet, const SheetView::Row& row, std::size
                return !number || number->number.value == held->number.value;
            });
 }
+
+}  // namespace
+
 std::optional<NamedLine> name_of_line(const SheetView& sheet, const SheetView::Row& row, const Heads* heads) {
     // A name stands before what it names; before it may stand the symbol of what it names.
     for (std::size_t i = 0; i < row.size() && i < 2; ++i) {
