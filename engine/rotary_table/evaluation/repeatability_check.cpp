@@ -70,8 +70,7 @@ gum::Diagnostic repeatability_note(const RefutedRepeatability& refuted, double d
                 "the distances give a repeatability of the table of " + estimate +
                     ", and the job says that there is none: U is too small",
                 "a table that comes back perfectly leaves a scatter of its visits that passes a one-sided chi-square "
-                "test at "
-                "0.1 % for all components",
+                "test at 0.1 % for all components",
                 "let the repeatability be estimated with \"mode\": \"estimate\", or give it",
                 gum::Severity::warning};
     }
@@ -94,8 +93,7 @@ gum::Diagnostic repeatability_note(const RefutedRepeatability& refuted, double d
             "what the distances give is less than a quarter larger than the given repeatability, or passes a one-sided "
             "chi-square test at 0.1 % for all components",
             "let it be estimated with \"mode\": \"estimate\", or give what holds for this table, unless a loose "
-            "support or a "
-            "drift makes the visits scatter",
+            "support or a drift makes the visits scatter",
             gum::Severity::warning};
 }
 

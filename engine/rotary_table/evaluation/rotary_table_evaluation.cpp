@@ -791,7 +791,6 @@ std::optional<RefutedWeights> check_repeatability(const JointAdjustment& adjustm
 
 /// Whether a suspicious group makes the visits scatter, and not the table: without it what is given holds.
 bool is_explained_by(const GroupTests& groups, const RefutedWeights& check, const EvaluationOptions& options) {
-    constexpr double k_held = 1.25 * 1.25;  // of a variance
     if (groups.tests.empty() || !groups.tests.front().suspicious) {
         return false;
     }
@@ -803,7 +802,7 @@ bool is_explained_by(const GroupTests& groups, const RefutedWeights& check, cons
         const StochasticModel without =
             variances_without(group, check.adjustment, check.iteration.estimated(), check.stochastic, options);
         return std::ranges::all_of(check.refuted, [&](const RefutedRepeatability& of) {
-            return !of.larger || variance_of(without, of.row) <= k_held * of.given * of.given;
+            return !of.larger || !is_refuted_by(of, std::sqrt(variance_of(without, of.row)));
         });
     } catch (const gum::NoResultError&) {
         return true;
