@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 #include <set>
+#include <utility>
 
 #include "archive/store/sqlite_store.h"
 #include "evaluation/evaluate_job.h"
@@ -24,6 +25,14 @@ namespace {
 using nlohmann::json;
 
 const std::filesystem::path k_affected_tree(GUMCERT_SOURCE_DIR);
+
+/// The standard of the example with what holds.
+Correction correction_to(std::string corrected) {
+    return {.standard = "STD-017",
+            .corrected = std::move(corrected),
+            .reason = "r",
+            .templates = k_affected_tree / "templates"};
+}
 
 class ArchiveOfStandards : public testing::Test {
 protected:
@@ -192,9 +201,7 @@ TEST_F(ArchiveOfStandards, AreFoundThroughAWithdrawnCertificate) {
     EXPECT_EQ(affected[0].through, "G-2");
     EXPECT_EQ(affected[0].through_state, "withdrawn");
     EXPECT_EQ(affected[1].certificate.number, "G-5");
-    recalculate(affected, archive_,
-                {.standard = "STD-017", .corrected = "{}", .reason = "r", .templates = k_affected_tree / "templates"},
-                1);
+    recalculate(affected, archive_, correction_to("{}"), 1);
     const std::string text = affected_text(affected);
     EXPECT_NE(text.find("through G-2, withdrawn: source"), std::string::npos) << text;
     EXPECT_EQ(json::parse(affected_json(affected, {}))["certificates"][0]["through_state"], "withdrawn");
@@ -233,10 +240,7 @@ TEST_F(ArchiveOfStandards, AreCalculatedAgainAndRanked) {
     const std::string registered = evaluation::read_file(folder / "laboratory" / "standards" / "STD-017.json");
     const auto calculated = [&](const std::string& corrected) {
         std::vector<AffectedCertificate> affected = find_affected(archive_, {"STD-017", "2026-03-02", ""}, 1);
-        recalculate(
-            affected, archive_,
-            {.standard = "STD-017", .corrected = corrected, .reason = "r", .templates = k_affected_tree / "templates"},
-            2);
+        recalculate(affected, archive_, correction_to(corrected), 2);
         return affected;
     };
     std::vector<AffectedCertificate> same = calculated(registered);
@@ -335,12 +339,8 @@ TEST_F(ArchiveOfStandards, AreSameWhereTheyWouldStateTheSame) {
         json changed = plain;
         changed[json::json_pointer(pointer)] = value;
         std::vector<AffectedCertificate> affected = find_affected(archive_, {"STD-017", "2026-03-02", ""}, 1);
-        recalculate(affected, archive_,
-                    {.standard = "STD-017",
-                     .corrected = changed.dump(),
-                     .reason = "r",
-                     .templates = k_affected_tree / "templates"},
-                    1, {.write = [](const std::vector<outputs::OutputFile>&) {}});
+        recalculate(affected, archive_, correction_to(changed.dump()), 1,
+                    {.write = [](const std::vector<outputs::OutputFile>&) {}});
         const auto found = std::find_if(affected.begin(), affected.end(),
                                         [](const auto& one) { return one.certificate.number == "EX-2026-0042"; });
         ASSERT_NE(found, affected.end());
@@ -393,12 +393,8 @@ TEST_F(ArchiveOfStandards, HaveADraftOrAReason) {
     }
     std::vector<AffectedCertificate> affected = find_affected(archive_, {"STD-017", "2026-03-02", ""}, 1);
     json changes;
-    recalculate(affected, archive_,
-                {.standard = "STD-017",
-                 .corrected = corrected.dump(),
-                 .reason = "r",
-                 .templates = k_affected_tree / "templates"},
-                1, {.write = [&](const std::vector<outputs::OutputFile>& files) {
+    recalculate(affected, archive_, correction_to(corrected.dump()), 1,
+                {.write = [&](const std::vector<outputs::OutputFile>& files) {
                     for (const outputs::OutputFile& file : files) {
                         const json read = json::parse(file.bytes, nullptr, false);
                         if (read.is_object() && read.contains("amendment")) {
@@ -507,9 +503,7 @@ TEST_F(ArchiveOfStandards, HaveDraftsOfEachFileOnce) {
     std::vector<AffectedCertificate> affected = find_affected(archive_, {"STD-017", "2026-03-02", ""}, 1);
     std::size_t drafts = 0;
     recalculate(
-        affected, archive_,
-        {.standard = "STD-017", .corrected = corrected, .reason = "r", .templates = k_affected_tree / "templates"}, 1,
-        {.write = [&](const std::vector<outputs::OutputFile>& files) {
+        affected, archive_, correction_to(corrected), 1, {.write = [&](const std::vector<outputs::OutputFile>& files) {
             ++drafts;
             std::set<std::filesystem::path> places;
             for (const outputs::OutputFile& file : files) {
@@ -573,12 +567,8 @@ TEST_F(ArchiveOfStandards, HaveADraftWhereTheirAmendmentWasWithdrawn) {
         one["certificate"] = "another";
     }
     std::vector<AffectedCertificate> affected = find_affected(archive_, {"STD-017", "2026-03-02", ""}, 1);
-    recalculate(affected, archive_,
-                {.standard = "STD-017",
-                 .corrected = corrected.dump(),
-                 .reason = "r",
-                 .templates = k_affected_tree / "templates"},
-                1, {.write = [](const std::vector<outputs::OutputFile>&) {}});
+    recalculate(affected, archive_, correction_to(corrected.dump()), 1,
+                {.write = [](const std::vector<outputs::OutputFile>&) {}});
     ASSERT_EQ(affected.size(), 6U);
     EXPECT_EQ(affected[0].certificate.state, "amended-by");
     EXPECT_EQ(affected[0].draft_folder, "EX-1_A2");
@@ -642,17 +632,15 @@ TEST_F(ArchiveOfStandards, TellNothingThatTheVersionAloneSaysOtherwise) {
         }
         std::vector<AffectedCertificate> affected = find_affected(archive_, {"STD-017", "2026-03-02", ""}, 1);
         Told all;
-        recalculate(
-            affected, archive_,
-            {.standard = "STD-017", .corrected = corrected, .reason = "r", .templates = k_affected_tree / "templates"},
-            1, {.write = [&](const std::vector<outputs::OutputFile>& files) {
-                for (const outputs::OutputFile& file : files) {
-                    if (file.path.filename() == "changes.json") {
-                        const json read = json::parse(file.bytes);
-                        all.drafts[read["amends"]] = read;
-                    }
-                }
-            }});
+        recalculate(affected, archive_, correction_to(corrected), 1,
+                    {.write = [&](const std::vector<outputs::OutputFile>& files) {
+                        for (const outputs::OutputFile& file : files) {
+                            if (file.path.filename() == "changes.json") {
+                                const json read = json::parse(file.bytes);
+                                all.drafts[read["amends"]] = read;
+                            }
+                        }
+                    }});
         std::sort(affected.begin(), affected.end(),
                   [](const auto& a, const auto& b) { return a.certificate.number < b.certificate.number; });
         all.certificates = json::parse(affected_json(affected, {}))["certificates"];
@@ -705,9 +693,7 @@ TEST_F(ArchiveOfStandards, AreRankedByWhatTheCertificateStates) {
     std::string corrected = evaluation::read_file(folder / "laboratory" / "standards" / "STD-017.json");
     corrected.replace(corrected.find("50.000623"), 9, "50.000643");  // 20 nm
     std::vector<AffectedCertificate> affected = find_affected(archive_, {"STD-017", "2026-03-02", ""}, 1);
-    recalculate(
-        affected, archive_,
-        {.standard = "STD-017", .corrected = corrected, .reason = "r", .templates = k_affected_tree / "templates"}, 1);
+    recalculate(affected, archive_, correction_to(corrected), 1);
     ASSERT_EQ(affected.size(), 2U);
     EXPECT_EQ(affected[0].certificate.number, "R-2");
     for (const AffectedCertificate& one : affected) {
