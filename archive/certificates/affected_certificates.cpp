@@ -15,6 +15,7 @@
 #include "archive/certificates/archive_files.h"
 #include "archive/certificates/report_changes.h"
 #include "archive/certificates/texts_of_records.h"
+#include "certificate/text_words.h"
 #include "evaluation/recompute_record.h"
 #include "gum/monte_carlo/worker_threads.h"
 #include "jobs/file_source.h"
@@ -524,9 +525,15 @@ std::vector<outputs::OutputFile> drafted_amendment(const AffectedCertificate& on
     return draft;
 }
 
-/// Names of a standard: its identification, and its certificates in a file of the register.
+/// Names of a standard in a file of the register: its serial number, where it is no short one that other things have as well, and its
+/// certificates.
 void add_names(const std::string& registered, std::vector<std::string>& names_of_standard) {
+    constexpr std::size_t k_least_letters = 4;
     const nlohmann::json standard = nlohmann::json::parse(registered, nullptr, false, true);
+    if (std::string serial = gumcert::json::text_of(standard, "serial_number");
+        certificate::letters_of(serial).size() >= k_least_letters) {
+        names_of_standard.push_back(std::move(serial));
+    }
     for (const nlohmann::json& calibration : gumcert::json::part_of(standard, "calibrations")) {
         if (std::string certificate = gumcert::json::text_of(calibration, "certificate"); !certificate.empty()) {
             names_of_standard.push_back(std::move(certificate));
@@ -557,6 +564,45 @@ std::vector<std::string> own_statements(const reports::EvaluationRecord& record,
         }
     }
     return places;
+}
+
+/// What a record that does not read the file of the standard names as sources, in its files and in its results, but things whose files
+/// of the register it holds.
+std::vector<std::string> other_sources(const reports::EvaluationRecord& record, const std::string& original,
+                                       const Correction& correction) {
+    std::vector<StandardReference> all;
+    const auto take = [&](std::string_view text) {
+        if (std::optional<RecordReferences> found = references_of(text)) {
+            std::ranges::move(found->references, std::back_inserter(all));
+        }
+    };
+    take(original);
+    const std::string amended = amended_record(record);
+    for (const reports::InputFile& file : record.job_files) {
+        const nlohmann::json content =
+            nlohmann::json::parse(reports::bytes_of(file).value_or(""), nullptr, false, true);
+        if (content.is_object() && standard_of_file(file.name).empty() && (amended.empty() || file.name != amended)) {
+            take(content.dump());
+        }
+    }
+    std::vector<std::string> names_of_standard{correction.standard};
+    add_names(correction.corrected, names_of_standard);
+    std::set<std::string> held;
+    for (const StandardReference& one : all) {
+        const bool is_of_standard = std::ranges::any_of(names_of_standard, [&](const std::string& name) {
+            return certificate::letters_of(one.text) == certificate::letters_of(name);
+        });
+        if (one.kind == StandardReference::Kind::registered && !is_of_standard) {
+            held.insert(one.text);
+        }
+    }
+    std::set<std::string> sources;
+    for (StandardReference& one : all) {
+        if (!held.contains(one.text)) {
+            sources.insert(std::move(one.text));
+        }
+    }
+    return {sources.begin(), sources.end()};
 }
 
 /// Some places in words.
@@ -653,7 +699,11 @@ Recalculated recalculated(const std::string& number, const std::string& original
         rerun.kind = record.kind;
         done.result.not_corrected = own_statements(record, correction);
         const std::optional<gum::Diagnostic> missing = evaluation::files_not_held(record, number);
+        done.result.not_read = missing ? missing->what : "";
         done.result.takes_standard = correct_files(record, correction);
+        if (!done.result.takes_standard) {
+            done.result.sources = other_sources(record, original, correction);
+        }
         if (missing || !done.result.takes_standard) {
             rerun.not_evaluated =
                 cannot_say(number, missing ? missing->what : "its job does not take the standard from the register");
@@ -797,18 +847,46 @@ auto rank_of(const AffectedCertificate& one) {
                       one.recalculated ? -one.recalculated->shift : 0.0, one.certificate.number);
 }
 
+/// Not where nothing can be said, nor of one that is the same because others are.
+bool is_calculated(const AffectedCertificate& one) {
+    return one.recalculated && !one.recalculated->rerun.not_evaluated && one.recalculated->takes_standard;
+}
+
 std::string outcome_of(const AffectedCertificate& one) {
     return one.recalculated ? k_outcomes.at(index_of_outcome(*one.recalculated)) : "not_recalculated";
 }
 
+/// Whether a certificate takes nothing of the standard but through others: it is not evaluated then.
+bool rests_on_others_alone(const AffectedCertificate& one) {
+    return !one.recalculated->takes_standard && !one.through.empty();
+}
+
+/// Why nothing can be said of a certificate that rests on others alone, whatever becomes of these: of the standard itself it may take
+/// something that nobody sees. "" where they settle it.
+std::string why_others_do_not_settle(const AffectedCertificate& one) {
+    const Recalculation& result = *one.recalculated;
+    if (!result.not_read.empty()) {
+        return result.not_read;
+    }
+    if (!result.not_corrected.empty()) {
+        return states_it_itself(result);
+    }
+    const auto unknown = std::ranges::find_if(result.sources, [&](const std::string& source) {
+        return std::ranges::none_of(one.rests_on,
+                                    [&](const FoundBefore& other) { return names(source, other.number); });
+    });
+    return unknown == result.sources.end()
+               ? ""
+               : "it names " + text::in_quotes(*unknown) + ", which may rest on the standard as well";
+}
+
 /// Whether nothing of a certificate changes, as far as that is of itself: what it takes of others on which it rests is another
-/// question, and where it takes nothing of the standard but through them it is the only one.
+/// question.
 bool is_same_by_itself(const AffectedCertificate& one) {
     const Recalculation& result = *one.recalculated;
-    const bool rests_on_others_alone = !result.takes_standard && !one.through.empty();
-    return result.not_corrected.empty() &&
-           (rests_on_others_alone ||
-            (!result.rerun.not_evaluated && !result.states_otherwise() && !result.rerun.is_negative()));
+    return rests_on_others_alone(one) ? why_others_do_not_settle(one).empty()
+                                      : result.not_corrected.empty() && !result.rerun.not_evaluated &&
+                                            !result.states_otherwise() && !result.rerun.is_negative();
 }
 
 /// Those of the others that come out the same, with all on which they rest: from certificates that rest on the standard alone to
@@ -851,12 +929,12 @@ void settle(std::vector<AffectedCertificate>& affected) {
         evaluation::RerunRecord& rerun = one.recalculated->rerun;
         const std::string& number = one.certificate.number;
         const std::string waits = waits_for(one);
-        if (!one.recalculated->takes_standard && !one.through.empty()) {
+        if (rests_on_others_alone(one)) {
+            std::string why = why_others_do_not_settle(one);
             rerun.not_evaluated =
                 same.contains(number)
                     ? std::nullopt
-                    : std::optional(cannot_say(
-                          number, waits.empty() ? states_it_itself(*one.recalculated) : "it rests on " + waits));
+                    : std::optional(cannot_say(number, why.empty() ? "it rests on " + waits : std::move(why)));
         } else if (!rerun.not_evaluated) {
             if (std::string what = why_it_is_not_the_same(*one.recalculated, waits); !what.empty()) {
                 rerun.not_evaluated = cannot_say(number, std::move(what));
@@ -1018,7 +1096,7 @@ std::string affected_text(const std::vector<AffectedCertificate>& affected) {
     for (const AffectedCertificate& one : affected) {
         text += filled(text::visible(one.certificate.number, 80), 24) + filled(one.certificate.state, 10) +
                 filled(text::visible(period_of(one), 40), 21) + outcome_of(one);
-        if (one.recalculated && !one.recalculated->rerun.not_evaluated) {
+        if (is_calculated(one)) {
             text += "  " + text::significant(one.recalculated->shift, 3) + " U";
         }
         text += one.draft_folder.empty() ? "" : "  draft " + one.draft_folder;
@@ -1050,7 +1128,8 @@ std::string affected_text(const std::vector<AffectedCertificate>& affected) {
                         ? ""
                         : "    it rests on " + text::visible(one.rests_on.front().number, 80) +
                               (one.rests_on.size() > 1 ? " and others, which come" : ", which comes") +
-                              " out the same\n";
+                              " out the same" +
+                              (one.recalculated->takes_standard ? "\n" : ", and on nothing else of the standard\n");
             const std::string& of_version = one.recalculated->version_in_words;
             text += of_version.empty() ? "" : "    " + of_version + "\n";
         }
@@ -1108,7 +1187,7 @@ std::string affected_json(const std::vector<AffectedCertificate>& affected, cons
             shown["version_in_words"] = one.recalculated->version_in_words;
             if (rerun.not_evaluated) {
                 shown["cannot_say"] = rerun.not_evaluated->what;
-            } else {
+            } else if (is_calculated(one)) {
                 shown["shift"] = one.recalculated->shift;
             }
         }
@@ -1124,11 +1203,10 @@ std::string affected_json(const std::vector<AffectedCertificate>& affected, cons
 std::string affected_csv(const std::vector<AffectedCertificate>& affected) {
     std::string all = "number,state,used_from,used_to,through,because,outcome,shift,draft,through_state\n";
     for (const AffectedCertificate& one : affected) {
-        const bool calculated = one.recalculated && !one.recalculated->rerun.not_evaluated;
         all += text::csv_field(one.certificate.number) + "," + one.certificate.state + "," +
                text::csv_field(one.used_from) + "," + text::csv_field(one.used_to) + "," +
                text::csv_field(one.through) + "," + text::csv_field(one.because.front().text) + "," + outcome_of(one) +
-               "," + (calculated ? nlohmann::json(one.recalculated->shift).dump() : "") + "," +
+               "," + (is_calculated(one) ? nlohmann::json(one.recalculated->shift).dump() : "") + "," +
                text::csv_field(one.draft_folder) + "," + one.through_state + "\n";
     }
     return all;

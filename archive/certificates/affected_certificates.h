@@ -48,6 +48,9 @@ struct Recalculation {
     /// else changes either, nothing can be said.
     std::vector<std::string> not_corrected = {};
     bool takes_standard = true;  ///< its job reads the file of the register; where it does not, it is not evaluated
+    std::string not_read = {};   ///< why its job was not read as a whole; "" where it was
+    /// Where it does not take the standard: what it names as sources, each once, but what its files of the register are of.
+    std::vector<std::string> sources = {};
 
     /// Whether the certificate would state anything else than it does, outside of its annexes: what an amendment tells.
     [[nodiscard]] bool states_otherwise() const { return !rerun.not_evaluated && (results_change || !texts.empty()); }
@@ -121,7 +124,8 @@ struct DraftSink {
 
 /// Calculates all certificates again that are not yet, drafts an amendment of each one that is issued, or whose amendment was
 /// withdrawn, and of which a printed digit, a verdict or a text changes, and ranks them; on several cores, with the same result for
-/// any number of threads. One that rests on others of the list comes out the same where they do. None is drafted beside an amendment that is under way, nor one that would take back what a withdrawn
+/// any number of threads. One that rests on others of the list comes out the same where they do, its job was read, and one
+/// that rests on them alone names no other source. None is drafted beside an amendment that is under way, nor one that would take back what a withdrawn
 /// amendment had stated otherwise.
 /// \param archive  in which they were found
 void recalculate(std::vector<AffectedCertificate>& affected, Archive& archive, const Correction& correction,

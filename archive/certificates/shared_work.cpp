@@ -68,6 +68,8 @@ std::string as_text(const Recalculation& one) {
                    {"results_change", one.results_change},
                    {"not_corrected", one.not_corrected},
                    {"takes_standard", one.takes_standard},
+                   {"not_read", one.not_read},
+                   {"sources", one.sources},
                    {"counts", one.rerun.counts},
                    {"made_by", {one.rerun.made_by.version, one.rerun.made_by.commit}},
                    {"kind", one.rerun.kind},
@@ -84,6 +86,8 @@ Recalculation recalculation_in(const std::string& number, const std::string& tex
     one.results_change = value.at("results_change").get<bool>();
     one.not_corrected = value.at("not_corrected").get<std::vector<std::string>>();
     one.takes_standard = value.at("takes_standard").get<bool>();
+    one.not_read = value.at("not_read").get<std::string>();
+    one.sources = value.at("sources").get<std::vector<std::string>>();
     value.at("counts").get_to(one.rerun.counts);
     for (const json& change : value.at("changes")) {
         one.rerun.changes.push_back({static_cast<evaluation::ChangeKind>(change.at(0).get<int>()),
