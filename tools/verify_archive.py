@@ -559,16 +559,34 @@ def faults_of_printed_heads(data, is_of_log, drafted, archived):
             yield f"prints a head of {counted(size)}, which does not contain the draft of its record"
 
 
-# The number in a record as gumcert writes it, canonical JSON (docs/adr/0004-canonical-json.md): reading all of each would take minutes.
-NUMBER_IN_LINES = re.compile(rb'[^\n]*\n(?: .*\n)*? (?:"certificate": \{\n(?:  .*\n)*?  "data"|"comparison": \{\n(?:  .*\n)*?  "issuer"): \{\n'
-                             rb'(?:   .*\n)*?   "number": (.*?),?\n')
+TEXT_IN_LINE = rb'"(?:[^"\\\n]|\\[^\n])*"'
+PLAIN_IN_LINE = b"(?:" + TEXT_IN_LINE + rb"|[-+.0-9A-Za-z]+)"
+
+
+def value_in_lines(depth, deepest=12):
+    """A value in JSON as gumcert writes it (docs/adr/0004-canonical-json.md), with its key where it has one: a line has one value, the
+    beginning or the end of one, or an array without objects and arrays, and a blank for each object or array around it."""
+    inner = b"(?:" + value_in_lines(depth + 1) + b")*" if depth < deepest else b""
+    return (b" " * depth + b"(?:" + TEXT_IN_LINE + rb": )?(?:" + PLAIN_IN_LINE + rb"|\{\}|\[(?:" + PLAIN_IN_LINE + b"(?:, " + PLAIN_IN_LINE
+            + rb")*)?\]|[{[]\n" + inner + b" " * depth + rb"[]}]),?\n")
+
+
+def up_to_member(depth, key):
+    member = b" " * depth + b'"' + key + b'": '
+    return b"(?:(?!" + member + b")" + value_in_lines(depth) + b")*" + member
+
+
+# The number of a certificate, in the first lines: reading all of each record would take minutes. Every line before is held against the
+# form, so that the number is there in JSON, too.
+NUMBER_IN_LINES = re.compile(rb"\{\n" + up_to_member(1, b"certificate") + rb"\{\n" + up_to_member(2, b"data") + rb"\{\n" + up_to_member(3, b"number")
+                             + b"(" + TEXT_IN_LINE + rb"),?\n")
 
 
 def stated_number(record):
     """Under which number a record says that its certificate, or the report of its comparison, is issued; "" where it says none."""
     found = NUMBER_IN_LINES.match(record)
-    number = part(strict_object(b'{"number": ' + found[1] + b"}") if found else None, "number")
-    if isinstance(number, str):
+    number = text(strict_object(b'{"number": ' + found[1] + b"}") if found else None, "number")
+    if number:
         return number
     value = strict_object(record, LONGEST_BASE64)
     return text(value, "certificate", "data", "number") or text(value, "comparison", "issuer", "number")

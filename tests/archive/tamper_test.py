@@ -255,7 +255,10 @@ def record_of_another_number(rng, db):
     drafted = rng.choice([e for e in log if e["kind"] == "drafted"])
     digest, number = drafted["record"], json.dumps(drafted["certificate"]).encode()
     (data,) = db.execute("SELECT bytes FROM content WHERE sha256 = ?", [digest]).fetchone()
-    other = data.replace(number, b'"X-1"') if rng.randrange(2) else json.dumps({"certificate": {"data": {"number": "X-1"}}}).encode()
+    stated = {"certificate": {"data": {"number": "X-1"}}}
+    decoy = b'\n "certificate": {\n  "data": {\n   "number": ' + number + b"\n  }\n }\n"
+    other = rng.choice([data.replace(number, b'"X-1"'), json.dumps(stated).encode(), json.dumps(stated, indent=1).encode(),
+                        json.dumps(stated)[:-1].encode() + b', "y": {' + decoy + b"}}\n", b'{"a": {' + decoy + b"}, " + json.dumps(stated)[1:].encode()])
     found = verify_archive.hashlib.sha256(other).hexdigest()
     db.execute("INSERT OR IGNORE INTO content VALUES(?, ?)", [found, other])
     db.execute("DELETE FROM content WHERE sha256 = ?", [digest])
