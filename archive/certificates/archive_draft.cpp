@@ -767,7 +767,7 @@ std::vector<gum::Diagnostic> doubts_about_days(const std::string& record, const 
 }
 
 bool states_a_reason(const std::string& text) {
-    return certificate::is_stated(text);
+    return certificate::states_a_reason(text);
 }
 
 }  // namespace gumcert::archive
