@@ -61,7 +61,7 @@ private:
     nlohmann::ordered_json object(int depth) {
         static constexpr std::array k_keys{"certificate", "comparison", "data", "issuer", "number", "x", "y"};
         nlohmann::ordered_json made = nlohmann::ordered_json::object();
-        for (unsigned i = random_() % 5; i > 0; --i) {
+        for (auto i = random_() % 5; i > 0; --i) {
             const std::string key = k_keys[random_() % k_keys.size()];
             made[key] = key == "number" ? value(9) : value(depth + 1);
         }
@@ -69,7 +69,7 @@ private:
     }
     nlohmann::ordered_json value(int depth) {
         static constexpr std::array k_texts{"A", "B", "C\"\\", "\u6821", "", "\": {\n", "\u007f"};
-        const unsigned kind = random_() % 8;
+        const auto kind = random_() % 8;
         return depth < 4 && kind < 4 ? object(depth)
                : kind == 4           ? nlohmann::ordered_json(7)
                : kind == 5           ? nlohmann::ordered_json::array({"A", nlohmann::ordered_json::object()})
