@@ -591,12 +591,13 @@ void multiply_by_curvilinear(double r, double step, std::vector<double>& phi) {
 }
 
 /// Multiplies φ_j by the characteristic functions of all terms at j δ, j = 1 …: a tenth of the work where j are many, and the same within
-/// 1e-13, or rounding divided by r.
+/// 1e-14 for each term, or 4e-15 divided by r, which is why small r go the other way.
 void multiply_quickly(std::span<const Distribution> terms, double delta, std::vector<double>& phi) {
     SmoothCharacteristic smooth;
     for (const Distribution& d : terms) {
         const double step = d.scale * delta;
-        if (d.kind == DistributionKind::curvilinear_trapezoid && d.shape >= k_least_inexact) {
+        constexpr double k_least_quick = 1e-2;
+        if (d.kind == DistributionKind::curvilinear_trapezoid && d.shape >= k_least_quick) {
             // Of a step h the rule of n points leaves out less than h^(2n+1) (n!)⁴/((2n+1)² (2n)!³): 3e-18 of 4 points here, 3e-16 of
             // 8 up to π, which no step is above, because the grid is wider than a (1 + r).
             constexpr double k_small_step = 0.15;
