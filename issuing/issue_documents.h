@@ -20,7 +20,8 @@ void require_signable(const reports::EvaluationRecord& record,
 /// \param where, where_later  names of the records for messages
 /// \param today  "2026-11-22", of the caller
 /// \throws gum::InputError  GC-CERT-0309 where one of them has no number, they are not of one sort, or the later one
-///         names another number, or cannot have been issued: a draft, a specimen, or dated later than today
+///         names another number, or cannot have been issued, by what its record says: a draft, without a date of
+///         issue, dated later than today, or a specimen where the earlier one is none
 void supersede(reports::EvaluationRecord& record, reports::EvaluationRecord later, const std::string& where,
                const std::string& where_later, const std::string& today);
 

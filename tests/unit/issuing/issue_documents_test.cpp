@@ -113,13 +113,22 @@ TEST(Supersede, AsksWhetherTheLaterOneMayBeIssued) {
     EXPECT_EQ(refusal(record, test::drafted(later)), "a draft: critical findings block its issue");
     later.certificate->data.status = "specimen";
     EXPECT_EQ(refusal(record, later), "a specimen");
+    EvaluationRecord specimen = record;
+    specimen.certificate->data.status = "specimen";
+    EXPECT_EQ(refusal(specimen, later), "");
+    later.certificate->data.status = record.certificate->data.status;
+    EXPECT_EQ(refusal(specimen, later), "");
+    later.certificate->data.dates.issued = "";
+    EXPECT_EQ(refusal(record, later), "without a date of issue");
 
     EvaluationRecord report;
     report.comparison.emplace().issuer.emplace().number = "EX-1";
     EvaluationRecord later_report = report;
     later_report.comparison->issuer->number = "EX-1/A1";
     later_report.comparison->issuer->amendment = amendment;
-    EXPECT_EQ(refusal(report, later_report), "") << "a report need not state its day";
+    EXPECT_EQ(refusal(report, later_report), "without a date of issue");
+    later_report.comparison->issuer->issued = "2026-11-22";
+    EXPECT_EQ(refusal(report, later_report), "");
     later_report.comparison->issuer->issued = "2027-01-01";
     EXPECT_THAT(refusal(report, later_report), HasSubstr("later than today"));
     EXPECT_THAT(refusal(report, later), HasSubstr("a certificate, and what is printed is"));
