@@ -10,6 +10,7 @@
 #include "archive/archive.h"
 #include "archive/log_rules.h"
 #include "archive/printed_head.h"
+#include "archive/stated_number.h"
 #include "archive/store/merkle.h"
 #include "encoding/base64.h"
 #include "encoding/sha2.h"
@@ -340,6 +341,15 @@ private:
         }
     }
 
+    void look_at_number(const Content& content) {
+        const auto drafted = drafts_.find(content.sha256);
+        const std::string number = drafted == drafts_.end() ? "" : number_stated_in(content.bytes);
+        if (!number.empty() && number != evidence_.certificate) {
+            add("GC-ARCHIVE-0043", "entry " + std::to_string(drafted->second),
+                "its record states the number " + text::in_quotes(number), k_number_rule);
+        }
+    }
+
     /// The statement names every entry that the log has of its certificates: one that was left out, or planted, shows.
     void look_at_states(const StateStatement& states) {
         if (!is_utc_time(states.at) || states.at < time_of(evidence_.head)) {
@@ -392,6 +402,7 @@ private:
                     "evidence holds what its entries name");
             } else {
                 look_at_printed_heads(content, *named->second);
+                look_at_number(content);
             }
             kept.insert(content.sha256);
         }

@@ -9,8 +9,10 @@
 #include "archive/archive.h"
 #include "archive/log_rules.h"
 #include "archive/printed_head.h"
+#include "archive/stated_number.h"
 #include "encoding/sha2.h"
 #include "text/lists.h"
+#include "text/visible_text.h"
 
 namespace gumcert::archive {
 
@@ -89,8 +91,8 @@ private:
         std::int64_t seq = 0;      // of the entry that names a content first
         std::int64_t drafted = 0;  // of the one that drafted its record first
     };
-    std::map<std::string, Naming> needed_;                                // by content
-    std::map<std::pair<std::string, std::string>, std::int64_t> drafts_;  // certificate and record → its first draft
+    std::map<std::string, Naming> needed_;                               // by content
+    std::map<std::string, std::map<std::string, std::int64_t>> drafts_;  // record → certificate → its first draft
     std::set<std::string> kept_;
 
     void add(const char* code, std::string where, std::string what, std::string rule, std::string action) {
@@ -137,8 +139,7 @@ private:
                 "a key belongs to one request", "find out who wrote this entry, and with which program");
         }
         if (entry.kind == "drafted") {
-            const std::int64_t drafted =
-                drafts_.emplace(std::pair(entry.certificate, entry.record), entry.seq).first->second;
+            const std::int64_t drafted = drafts_[entry.record].emplace(entry.certificate, entry.seq).first->second;
             needed_.emplace(entry.record, Naming{entry.seq, drafted});
             for (const std::string& sha256 : documents_in(body_of(entry).value_or(nlohmann::json::object()))) {
                 needed_.emplace(sha256, Naming{entry.seq, drafted});
@@ -187,10 +188,25 @@ private:
                 "the archive holds what its log names", "find out who put it there");
         } else {
             look_at_printed_heads(content, named->second);
+            look_at_number(content);
         }
         kept_.insert(content.sha256);
         if (progress_ && kept_.size() % k_between_reports == 0) {
             progress_(text::count_of(static_cast<std::int64_t>(kept_.size()), "content"));
+        }
+    }
+
+    void look_at_number(const Content& content) {
+        const auto drafted = drafts_.find(content.sha256);
+        const std::string number = drafted == drafts_.end() ? "" : number_stated_in(content.bytes);
+        if (number.empty()) {
+            return;
+        }
+        for (const auto& [certificate, seq] : drafted->second) {
+            if (certificate != number) {
+                add("GC-ARCHIVE-0043", entry_name(seq), "its record states the number " + text::in_quotes(number),
+                    k_number_rule, "find out who wrote this entry, and which certificate the record is of");
+            }
         }
     }
 

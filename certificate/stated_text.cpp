@@ -90,6 +90,23 @@ bool is_stated(const LocalisedText& text) {
     return in_every_language<is_stated>(text);
 }
 
+bool states_a_reason(const std::string& text) {
+    static const std::set<std::u32string> k_nothing{
+        U"na",     U"ka",      U"sd",   U"none", U"nil",    U"null",   U"nothing", U"keine", U"keiner",
+        U"nichts", U"ninguno", U"nada", U"tbd",  U"tba",    U"tbc",    U"todo",    U"asdf",  U"asdfgh",
+        U"qwerty", U"qwertz",  U"無",   U"无",   U"不適用", U"不适用", U"待定",    U"未定"};
+    const std::u32string letters = letters_of(text);
+    const bool has_letter = !std::all_of(letters.begin(), letters.end(), is_digit);
+    const bool is_one_again =
+        letters.find_first_not_of(letters.empty() ? U'0' : letters.front()) == std::u32string::npos;
+    const bool is_ideograph_alone = letters.size() == 1 && is_ideograph(letters.front());
+    return has_letter && (!is_one_again || is_ideograph_alone) && !k_nothing.contains(letters);
+}
+
+bool states_a_reason(const LocalisedText& text) {
+    return in_every_language<states_a_reason>(text);
+}
+
 bool is_name(const std::string& text) {
     const std::u32string letters = letters_of(text);
     const bool long_enough = letters.size() > 1 || (!letters.empty() && is_ideograph(letters.front()));

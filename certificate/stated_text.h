@@ -21,6 +21,14 @@ template <class Text>
     return std::any_of(texts.begin(), texts.end(), [](const Text& text) { return is_stated(text); });
 }
 
+/// Whether a text that is given as a reason says something. A reason is in words of a laboratory, of which many stand for nothing in a
+/// field ("number not needed", "Gerät nicht erhalten", "error en el número de serie"): nothing is said by a text without a letter
+/// ("-", "17"), by one letter again and again ("xxx"), by keys beside each other ("asdf"), and by "n/a", "none", "tbd" and the like
+/// as a whole.
+[[nodiscard]] bool states_a_reason(const std::string& text);
+/// In every language in which it was given.
+[[nodiscard]] bool states_a_reason(const LocalisedText& text);
+
 /// A name of a person, an organisation or a thing: stated, of two letters or digits or one ideograph at least, no
 /// number, no e-mail address and no address of a site.
 [[nodiscard]] bool is_name(const std::string& text);

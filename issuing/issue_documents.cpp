@@ -3,6 +3,7 @@
 #include <optional>
 #include <utility>
 
+#include "certificate/gates/day_of_issue.h"
 #include "gum/quantity/diagnostic.h"
 #include "reports/record/record_kinds.h"
 
@@ -55,6 +56,28 @@ std::optional<Issued> issued_as(reports::EvaluationRecord& record) {
     return std::nullopt;
 }
 
+bool is_specimen(const reports::EvaluationRecord& record) {
+    return record.certificate && record.certificate->data.status == "specimen";
+}
+
+/// Why a certificate or report has not been issued, as far as its record says; "" where nothing is against it.
+/// \param earlier  what it supersedes: of a specimen that may be another one
+std::string why_it_is_not_issued(const reports::EvaluationRecord& record, const reports::EvaluationRecord& earlier,
+                                 const std::string& today) {
+    certificate::Certificate judged = record.certificate.value_or(certificate::Certificate());
+    if (!record.certificate) {
+        judged.data.status = "not_accredited";  // reports have no status: they are no specimens
+        judged.data.dates.issued = record.comparison->issuer->issued;
+    }
+    const std::string& day = judged.data.dates.issued;
+    const bool is_ahead = certificate::block_issue_ahead_of_time(judged, today);
+    return is_specimen(record) && !is_specimen(earlier) ? "a specimen"
+           : day.empty()                                ? "without a date of issue"
+           : is_ahead                                   ? "dated " + day + ", later than today, " + today
+           : judged.blocked                             ? "a draft: critical findings block its issue"
+                                                        : "";
+}
+
 const char* sort_of(const reports::EvaluationRecord& record) {
     return record.certificate ? "a certificate" : "the report of a comparison";
 }
@@ -62,7 +85,7 @@ const char* sort_of(const reports::EvaluationRecord& record) {
 }  // namespace
 
 void supersede(reports::EvaluationRecord& record, reports::EvaluationRecord later, const std::string& where,
-               const std::string& where_later) {
+               const std::string& where_later, const std::string& today) {
     const auto refuse = [](const std::string& at, std::string what, std::string rule, std::string action) {
         throw gum::InputError(gum::Diagnostic{.code = "GC-CERT-0309",
                                               .where = at,
@@ -91,6 +114,10 @@ void supersede(reports::EvaluationRecord& record, reports::EvaluationRecord late
     if (const std::string& named = amending->amendment->number; named != number) {
         refuse(where_later, "amends or replaces \"" + named + "\"", "what is printed has the number \"" + number + "\"",
                "name the record of the one that amends or replaces it");
+    }
+    if (const std::string why = why_it_is_not_issued(later, record, today); !why.empty()) {
+        refuse(where_later, why, "what was issued holds until the one that supersedes it is issued",
+               "issue \"" + amending->number + "\" first, or leave --superseded-by out");
     }
     *earlier->superseded_by = amending->number;
 }

@@ -18,10 +18,12 @@ void require_signable(const reports::EvaluationRecord& record,
 /// Says of a certificate, or of the report of a comparison, that a later one amends or replaces it: its documents are marked,
 /// and not signed.
 /// \param where, where_later  names of the records for messages
+/// \param today  "2026-11-22", of the caller
 /// \throws gum::InputError  GC-CERT-0309 where one of them has no number, they are not of one sort, or the later one
-///         names another number
+///         names another number, or cannot have been issued, by what its record says: a draft, without a date of
+///         issue, dated later than today, or a specimen where the earlier one is none
 void supersede(reports::EvaluationRecord& record, reports::EvaluationRecord later, const std::string& where,
-               const std::string& where_later);
+               const std::string& where_later, const std::string& today);
 
 /// One form of the document. The digital certificate is signed first and stands in the PDF as it was signed; then the
 /// PDF is signed. Other forms carry no signature. The report of a comparison has no digital certificate.

@@ -559,6 +559,47 @@ def faults_of_printed_heads(data, is_of_log, drafted, archived):
             yield f"prints a head of {counted(size)}, which does not contain the draft of its record"
 
 
+TEXT_IN_LINE = rb'"(?:[^"\\\n]|\\[^\n])*"'
+PLAIN_IN_LINE = b"(?:" + TEXT_IN_LINE + rb"|[-+.0-9A-Za-z]+)"
+
+
+def value_in_lines(depth, deepest=12):
+    """A value in JSON as gumcert writes it (docs/adr/0004-canonical-json.md), with its key where it has one: a line has one value, the
+    beginning or the end of one, or an array without objects and arrays, and a blank for each object or array around it."""
+    inner = b"(?:" + value_in_lines(depth + 1) + b")*" if depth < deepest else b""
+    return (b" " * depth + b"(?:" + TEXT_IN_LINE + rb": )?(?:" + PLAIN_IN_LINE + rb"|\{\}|\[(?:" + PLAIN_IN_LINE + b"(?:, " + PLAIN_IN_LINE
+            + rb")*)?\]|[{[]\n" + inner + b" " * depth + rb"[]}]),?\n")
+
+
+def up_to_member(depth, key):
+    member = b" " * depth + b'"' + key + b'": '
+    return b"(?:(?!" + member + b")" + value_in_lines(depth) + b")*" + member
+
+
+# The number of a certificate, in the first lines: reading all of each record would take minutes. Every line before is held against the
+# form, so that the number is there in JSON, too.
+NUMBER_IN_LINES = re.compile(rb"\{\n" + up_to_member(1, b"certificate") + rb"\{\n" + up_to_member(2, b"data") + rb"\{\n" + up_to_member(3, b"number")
+                             + b"(" + TEXT_IN_LINE + rb"),?\n")
+
+
+def stated_number(record):
+    """Under which number a record says that its certificate, or the report of its comparison, is issued; "" where it says none."""
+    found = NUMBER_IN_LINES.match(record)
+    number = text(strict_object(b'{"number": ' + found[1] + b"}") if found else None, "number")
+    if number:
+        return number
+    value = strict_object(record, LONGEST_BASE64)
+    return text(value, "certificate", "data", "number") or text(value, "comparison", "issuer", "number")
+
+
+def faults_of_numbers(record, drafts):
+    """A record is drafted under the number that it states. Drafts: certificate, as bytes, and entry."""
+    number = stated_number(record)
+    for certificate, seq in drafts:
+        if number and number.encode() != certificate:
+            yield f"entry {seq}: its record states the number {number}"
+
+
 def contents_named_by(entry):
     if entry["kind"] != b"drafted":
         return []
@@ -826,7 +867,9 @@ def findings_of(database, heads, tell):
         tell(clocks.in_words())
     yield from faults_of_list(database, rules.lives)
     roots = Roots(leaves)
-    kept = set()
+    kept, drafts_of = set(), {}
+    for (certificate, record), seq in drafts.items():
+        drafts_of.setdefault(record, []).append((certificate, seq))
     for digest, data in database.execute("SELECT sha256, bytes FROM content NOT INDEXED"):
         digest = as_text(digest)
         if hashlib.sha256(data if isinstance(data, bytes) else b"").hexdigest() != digest:
@@ -837,6 +880,8 @@ def findings_of(database, heads, tell):
             archived, drafted = needed[digest]
             for fault in faults_of_printed_heads(data, lambda size, root: roots.first(size) == root, drafted, archived):
                 yield f"content {digest}: {fault}"
+            if drafts_of.get(digest.encode()):
+                yield from faults_of_numbers(data, drafts_of[digest.encode()])
         kept.add(digest)
     for digest, (seq, _) in needed.items():
         if digest not in kept:
@@ -986,6 +1031,8 @@ def verify_evidence(value, heads, public_key, verdict, known=()):
             archived, drafted = needed[digest]
             for fault in faults_of_printed_heads(data, lambda size, root: (size, root) in proved, drafted, archived):
                 yield f"content {digest}: {fault}"
+            if digest.encode() in drafts:
+                yield from faults_of_numbers(data, [(number.encode(), drafts[digest.encode()])])
         kept.add(digest)
     for digest, (seq, _) in needed.items():
         if digest not in kept:

@@ -295,7 +295,7 @@ ExitCode render_record(const std::string& name, const std::string& format, const
     if (!options.superseded_by.empty()) {
         issuing::supersede(
             record, reports::record_from_json(evaluation::read_file(options.superseded_by), options.superseded_by),
-            name, options.superseded_by);
+            name, options.superseded_by, today());
     }
     judge_issue(record, options.languages, options.share);
     if (issuing::output_form(format).is_issued && issuing::is_withheld(record, options.draft)) {

@@ -15,6 +15,7 @@
 #include "archive/certificates/archive_files.h"
 #include "archive/certificates/report_changes.h"
 #include "archive/certificates/texts_of_records.h"
+#include "certificate/text_words.h"
 #include "evaluation/recompute_record.h"
 #include "gum/monte_carlo/worker_threads.h"
 #include "jobs/file_source.h"
@@ -437,6 +438,14 @@ nlohmann::json change_list(const std::vector<certificate::Change>& changes) {
     return list;
 }
 
+nlohmann::json numbers_of(const std::vector<FoundBefore>& others) {
+    nlohmann::json list = nlohmann::json::array();
+    for (const FoundBefore& other : others) {
+        list.push_back(other.number);
+    }
+    return list;
+}
+
 /// Job, certificate data and all files of an amendment.
 /// \return none where the job cannot be written beside each other again
 std::vector<outputs::OutputFile> drafted_amendment(const AffectedCertificate& one, const std::string& original,
@@ -511,13 +520,20 @@ std::vector<outputs::OutputFile> drafted_amendment(const AffectedCertificate& on
                                                     {"job", places.of(job_name).generic_string()},
                                                     {"changes", change_list(one.recalculated->stated)},
                                                     {"changes_of_version", change_list(one.recalculated->of_version)},
-                                                    {"not_corrected", one.recalculated->not_corrected}})});
+                                                    {"not_corrected", one.recalculated->not_corrected},
+                                                    {"rests_on", numbers_of(one.rests_on)}})});
     return draft;
 }
 
-/// Names of a standard: its identification, and its certificates in a file of the register.
+/// Names of a standard in a file of the register: its serial number, where it is no short one that other things have as well, and its
+/// certificates.
 void add_names(const std::string& registered, std::vector<std::string>& names_of_standard) {
+    constexpr std::size_t k_least_letters = 4;
     const nlohmann::json standard = nlohmann::json::parse(registered, nullptr, false, true);
+    if (std::string serial = gumcert::json::text_of(standard, "serial_number");
+        certificate::letters_of(serial).size() >= k_least_letters) {
+        names_of_standard.push_back(std::move(serial));
+    }
     for (const nlohmann::json& calibration : gumcert::json::part_of(standard, "calibrations")) {
         if (std::string certificate = gumcert::json::text_of(calibration, "certificate"); !certificate.empty()) {
             names_of_standard.push_back(std::move(certificate));
@@ -525,10 +541,12 @@ void add_names(const std::string& registered, std::vector<std::string>& names_of
     }
 }
 
-/// Where the job of a record states something of a standard itself.
+/// Where the job of a record states something of a standard itself, by names of its file as it was and as it is corrected.
 /// \param record  as it was issued
-std::vector<std::string> own_statements(const reports::EvaluationRecord& record, const std::string& standard) {
+std::vector<std::string> own_statements(const reports::EvaluationRecord& record, const Correction& correction) {
+    const std::string& standard = correction.standard;
     std::vector<std::string> names_of_standard{standard};
+    add_names(correction.corrected, names_of_standard);
     for (const reports::InputFile& file : record.job_files) {
         if (standard_of_file(file.name) == standard) {
             add_names(reports::bytes_of(file).value_or(""), names_of_standard);
@@ -548,6 +566,45 @@ std::vector<std::string> own_statements(const reports::EvaluationRecord& record,
     return places;
 }
 
+/// What a record that does not read the file of the standard names as sources, in its files and in its results, but things whose files
+/// of the register it holds.
+std::vector<std::string> other_sources(const reports::EvaluationRecord& record, const std::string& original,
+                                       const Correction& correction) {
+    std::vector<StandardReference> all;
+    const auto take = [&](std::string_view text) {
+        if (std::optional<RecordReferences> found = references_of(text)) {
+            std::ranges::move(found->references, std::back_inserter(all));
+        }
+    };
+    take(original);
+    const std::string amended = amended_record(record);
+    for (const reports::InputFile& file : record.job_files) {
+        const nlohmann::json content =
+            nlohmann::json::parse(reports::bytes_of(file).value_or(""), nullptr, false, true);
+        if (content.is_object() && standard_of_file(file.name).empty() && (amended.empty() || file.name != amended)) {
+            take(content.dump());
+        }
+    }
+    std::vector<std::string> names_of_standard{correction.standard};
+    add_names(correction.corrected, names_of_standard);
+    std::set<std::string> held;
+    for (const StandardReference& one : all) {
+        const bool is_of_standard = std::ranges::any_of(names_of_standard, [&](const std::string& name) {
+            return certificate::letters_of(one.text) == certificate::letters_of(name);
+        });
+        if (one.kind == StandardReference::Kind::registered && !is_of_standard) {
+            held.insert(one.text);
+        }
+    }
+    std::set<std::string> sources;
+    for (StandardReference& one : all) {
+        if (!held.contains(one.text)) {
+            sources.insert(std::move(one.text));
+        }
+    }
+    return {sources.begin(), sources.end()};
+}
+
 /// Some places in words.
 std::string in_words(const std::vector<std::string>& places) {
     constexpr std::size_t k_most = 3;
@@ -558,16 +615,18 @@ std::string in_words(const std::vector<std::string>& places) {
     return words + (places.size() > k_most ? " and " + std::to_string(places.size() - k_most) + " more" : "");
 }
 
+std::string states_it_itself(const Recalculation& one) {
+    return "its job states something of the standard itself: " + in_words(one.not_corrected);
+}
+
 /// Why nothing can be said of a certificate that comes out the same: not all that rests on the standard was corrected. "" where
 /// it comes out otherwise, or all was.
 std::string why_it_is_not_the_same(const Recalculation& one, const std::string& waits_for) {
     const bool decides_otherwise = one.rerun.count(evaluation::ChangeKind::verdict) > 0;
     return one.states_otherwise() || decides_otherwise ? ""
-           : !one.not_corrected.empty() ? "with the corrected file it comes out the same, and its job states something "
-                                          "of the standard itself: " +
-                                              in_words(one.not_corrected)
-           : !waits_for.empty() ? "with the corrected file it comes out the same, and it rests on " + waits_for
-                                : "";
+           : !one.not_corrected.empty() ? "with the corrected file it comes out the same, and " + states_it_itself(one)
+           : !waits_for.empty()         ? "with the corrected file it comes out the same, and it rests on " + waits_for
+                                        : "";
 }
 
 /// A record with the corrected standard among the files of its job, and what comes of it.
@@ -629,8 +688,7 @@ void tell_effect(const reports::EvaluationRecord& record, const nlohmann::json& 
     tell_what_is_stated(record, stated, result);
 }
 
-Recalculated recalculated(const std::string& number, const std::string& waits_for, const std::string& original,
-                          const Correction& correction) {
+Recalculated recalculated(const std::string& number, const std::string& original, const Correction& correction) {
     Recalculated done{.result = {.rerun = {.name = number}}, .corrected = {}};
     evaluation::RerunRecord& rerun = done.result.rerun;
     reports::EvaluationRecord& record = done.corrected;
@@ -639,21 +697,20 @@ Recalculated recalculated(const std::string& number, const std::string& waits_fo
         record = std::move(read.record);
         rerun.made_by = record.software;
         rerun.kind = record.kind;
-        std::vector<std::string> own = own_statements(record, correction.standard);
-        if (const std::optional<gum::Diagnostic> missing = evaluation::files_not_held(record, number)) {
-            rerun.not_evaluated = cannot_say(number, missing->what);
-        } else if (!correct_files(record, correction)) {
+        done.result.not_corrected = own_statements(record, correction);
+        const std::optional<gum::Diagnostic> missing = evaluation::files_not_held(record, number);
+        done.result.not_read = missing ? missing->what : "";
+        done.result.takes_standard = correct_files(record, correction);
+        if (!done.result.takes_standard) {
+            done.result.sources = other_sources(record, original, correction);
+        }
+        if (missing || !done.result.takes_standard) {
             rerun.not_evaluated =
-                cannot_say(number, waits_for.empty() ? "its job does not take the standard from the register"
-                                                     : "it rests on " + waits_for);
+                cannot_say(number, missing ? missing->what : "its job does not take the standard from the register");
         } else {
             const reports::EvaluationRecord again = evaluation::evaluated_again(
                 record, number, 1, correction.templates, correction.watch ? correction.watch() : gum::Progress());
             tell_effect(record, read.value, again, reports::to_json_value(again), original, correction, done.result);
-            done.result.not_corrected = std::move(own);
-            if (const std::string what = why_it_is_not_the_same(done.result, waits_for); !what.empty()) {
-                rerun.not_evaluated = cannot_say(number, what);
-            }
         }
     } catch (const gum::DiagnosedError& error) {
         rerun.not_evaluated = cannot_say(number, error.diagnostics().front().what);
@@ -718,7 +775,7 @@ void work_out(AffectedCertificate& one, const RecordsToRead& records, const Corr
     const std::string& original = records.original;
     std::optional<reports::EvaluationRecord> corrected;
     if (!one.recalculated) {
-        Recalculated done = recalculated(one.certificate.number, waits_for(one), original, correction);
+        Recalculated done = recalculated(one.certificate.number, original, correction);
         one.recalculated = std::move(done.result);
         corrected = std::move(done.corrected);
     }
@@ -790,8 +847,101 @@ auto rank_of(const AffectedCertificate& one) {
                       one.recalculated ? -one.recalculated->shift : 0.0, one.certificate.number);
 }
 
+/// Not where nothing can be said, nor of one that is the same because others are.
+bool is_calculated(const AffectedCertificate& one) {
+    return one.recalculated && !one.recalculated->rerun.not_evaluated && one.recalculated->takes_standard;
+}
+
 std::string outcome_of(const AffectedCertificate& one) {
     return one.recalculated ? k_outcomes.at(index_of_outcome(*one.recalculated)) : "not_recalculated";
+}
+
+/// Whether a certificate takes nothing of the standard but through others: it is not evaluated then.
+bool rests_on_others_alone(const AffectedCertificate& one) {
+    return !one.recalculated->takes_standard && !one.through.empty();
+}
+
+/// Why nothing can be said of a certificate that rests on others alone, whatever becomes of these: of the standard itself it may take
+/// something that nobody sees. "" where they settle it.
+std::string why_others_do_not_settle(const AffectedCertificate& one) {
+    const Recalculation& result = *one.recalculated;
+    if (!result.not_read.empty()) {
+        return result.not_read;
+    }
+    if (!result.not_corrected.empty()) {
+        return states_it_itself(result);
+    }
+    const auto unknown = std::ranges::find_if(result.sources, [&](const std::string& source) {
+        return std::ranges::none_of(one.rests_on,
+                                    [&](const FoundBefore& other) { return names(source, other.number); });
+    });
+    return unknown == result.sources.end()
+               ? ""
+               : "it names " + text::in_quotes(*unknown) + ", which may rest on the standard as well";
+}
+
+/// Whether nothing of a certificate changes, as far as that is of itself: what it takes of others on which it rests is another
+/// question.
+bool is_same_by_itself(const AffectedCertificate& one) {
+    const Recalculation& result = *one.recalculated;
+    return rests_on_others_alone(one) ? why_others_do_not_settle(one).empty()
+                                      : result.not_corrected.empty() && !result.rerun.not_evaluated &&
+                                            !result.states_otherwise() && !result.rerun.is_negative();
+}
+
+/// Those of the others that come out the same, with all on which they rest: from certificates that rest on the standard alone to
+/// those that rest on them. None of a circle does.
+std::set<std::string> come_out_the_same(const std::vector<AffectedCertificate>& affected) {
+    std::map<std::string, std::vector<const AffectedCertificate*>> resting;  // by what they rest on
+    std::map<std::string, std::size_t> open;                                 // how many of these have not come out
+    std::deque<std::string> next;
+    for (const AffectedCertificate& one : affected) {
+        if (!is_same_by_itself(one)) {
+            continue;
+        }
+        open[one.certificate.number] = one.rests_on.size();
+        for (const FoundBefore& other : one.rests_on) {
+            resting[other.number].push_back(&one);
+        }
+        if (one.rests_on.empty()) {
+            next.push_back(one.certificate.number);
+        }
+    }
+    std::set<std::string> same;
+    for (; !next.empty(); next.pop_front()) {
+        same.insert(next.front());
+        for (const AffectedCertificate* const one : resting[next.front()]) {
+            if (--open[one->certificate.number] == 0) {
+                next.push_back(one->certificate.number);
+            }
+        }
+    }
+    return same;
+}
+
+/// When all are calculated: what is said of those that rest on others, and of those that are not corrected as a whole.
+void settle(std::vector<AffectedCertificate>& affected) {
+    const std::set<std::string> same = come_out_the_same(affected);
+    for (AffectedCertificate& one : affected) {
+        for (FoundBefore& other : one.rests_on) {
+            other.is_same = same.contains(other.number);
+        }
+        evaluation::RerunRecord& rerun = one.recalculated->rerun;
+        const std::string& number = one.certificate.number;
+        const std::string waits = waits_for(one);
+        if (rests_on_others_alone(one)) {
+            std::string why = why_others_do_not_settle(one);
+            rerun.not_evaluated =
+                same.contains(number)
+                    ? std::nullopt
+                    : std::optional(cannot_say(number, why.empty() ? "it rests on " + waits : std::move(why)));
+        } else if (!rerun.not_evaluated) {
+            if (std::string what = why_it_is_not_the_same(*one.recalculated, waits); !what.empty()) {
+                rerun.not_evaluated = cannot_say(number, std::move(what));
+                one.no_draft.clear();
+            }
+        }
+    }
 }
 
 /// Numbers that differ in characters that no file name has, such as "N/1" and "N_1", do not share a folder.
@@ -883,12 +1033,11 @@ std::vector<AffectedCertificate> find_affected(Archive& archive, const WrongStan
                 !is_in_period(*record.references, standard.since, next.through.empty() ? standard.until : "")) {
                 continue;
             }
-            const auto found = places.find(i);
             if (known.insert(i).second) {
                 find(i, next, references_that_name(next.name, *record.references));
-            } else if (found != places.end() && !next.through.empty() && affected[found->second].also_through.empty()) {
-                affected[found->second].also_through = next.through;
-                affected[found->second].also_through_state = next.through_state;
+            }
+            if (const auto found = places.find(i); found != places.end() && !next.through.empty()) {
+                affected[found->second].rests_on.push_back({next.through, next.through_state});
             }
         }
     }
@@ -900,15 +1049,14 @@ std::vector<AffectedCertificate> find_affected(Archive& archive, const WrongStan
 }
 
 std::string waits_for(const AffectedCertificate& certificate) {
-    const bool is_direct = certificate.through.empty();
-    const std::string& other = is_direct ? certificate.also_through : certificate.through;
-    const std::string& state = is_direct ? certificate.also_through_state : certificate.through_state;
-    return other.empty() ? "" : other + (state == k_withdrawn ? ", which was withdrawn" : ", which is listed, too");
+    const auto open = std::ranges::find(certificate.rests_on, false, &FoundBefore::is_same);
+    return open == certificate.rests_on.end()
+               ? ""
+               : open->number + (open->state == k_withdrawn ? ", which was withdrawn" : ", which is listed, too");
 }
 
-Recalculation recalculation_of(const std::string& number, const std::string& waits_for, const std::string& original,
-                               const Correction& correction) {
-    return recalculated(number, waits_for, original, correction).result;
+Recalculation recalculation_of(const std::string& number, const std::string& original, const Correction& correction) {
+    return recalculated(number, original, correction).result;
 }
 
 void recalculate(std::vector<AffectedCertificate>& affected, Archive& archive, const Correction& correction,
@@ -934,6 +1082,7 @@ void recalculate(std::vector<AffectedCertificate>& affected, Archive& archive, c
         }
     }
     finish();
+    settle(affected);
     rank(affected);
 }
 
@@ -947,7 +1096,7 @@ std::string affected_text(const std::vector<AffectedCertificate>& affected) {
     for (const AffectedCertificate& one : affected) {
         text += filled(text::visible(one.certificate.number, 80), 24) + filled(one.certificate.state, 10) +
                 filled(text::visible(period_of(one), 40), 21) + outcome_of(one);
-        if (one.recalculated && !one.recalculated->rerun.not_evaluated) {
+        if (is_calculated(one)) {
             text += "  " + text::significant(one.recalculated->shift, 3) + " U";
         }
         text += one.draft_folder.empty() ? "" : "  draft " + one.draft_folder;
@@ -974,7 +1123,13 @@ std::string affected_text(const std::vector<AffectedCertificate>& affected) {
             text += one.recalculated->not_corrected.empty() ? ""
                                                             : "    not corrected, because its job states it itself: " +
                                                                   in_words(one.recalculated->not_corrected) + "\n";
-            text += waits.empty() ? "" : "    it rests on " + text::visible(waits, 120) + "\n";
+            text += !waits.empty() ? "    it rests on " + text::visible(waits, 120) + "\n"
+                    : one.rests_on.empty()
+                        ? ""
+                        : "    it rests on " + text::visible(one.rests_on.front().number, 80) +
+                              (one.rests_on.size() > 1 ? " and others, which come" : ", which comes") +
+                              " out the same" +
+                              (one.recalculated->takes_standard ? "\n" : ", and on nothing else of the standard\n");
             const std::string& of_version = one.recalculated->version_in_words;
             text += of_version.empty() ? "" : "    " + of_version + "\n";
         }
@@ -999,26 +1154,32 @@ std::string affected_json(const std::vector<AffectedCertificate>& affected, cons
         for (const StandardReference& reference : one.because) {
             because.push_back({{"kind", word_of(reference.kind)}, {"text", reference.text}});
         }
-        nlohmann::json shown{{"number", one.certificate.number},
-                             {"state", one.certificate.state},
-                             {"item", one.certificate.item},
-                             {"record", one.certificate.record},
-                             {"used_from", one.used_from},
-                             {"used_to", one.used_to},
-                             {"because", std::move(because)},
-                             {"through", one.through},
-                             {"through_state", one.through_state},
-                             {"also_through", one.also_through},
-                             {"withdrawn_amendment", one.withdrawn_amendment},
-                             {"amendment_under_way", one.amendment_under_way},
-                             {"version_in_words", ""},
-                             {"not_corrected", nlohmann::json::array()},
-                             {"outcome", outcome_of(one)},
-                             {"shift", nullptr},
-                             {"changes", nlohmann::json::array()},
-                             {"draft", one.draft_folder},
-                             {"no_draft", one.no_draft},
-                             {"cannot_say", ""}};
+        nlohmann::json rests_on = nlohmann::json::array();
+        for (const FoundBefore& other : one.rests_on) {
+            rests_on.push_back({{"number", other.number}, {"state", other.state}, {"same", other.is_same}});
+        }
+        nlohmann::json shown{
+            {"number", one.certificate.number},
+            {"state", one.certificate.state},
+            {"item", one.certificate.item},
+            {"record", one.certificate.record},
+            {"used_from", one.used_from},
+            {"used_to", one.used_to},
+            {"because", std::move(because)},
+            {"through", one.through},
+            {"through_state", one.through_state},
+            {"also_through", one.through.empty() && !one.rests_on.empty() ? one.rests_on.front().number : ""},
+            {"rests_on", std::move(rests_on)},
+            {"withdrawn_amendment", one.withdrawn_amendment},
+            {"amendment_under_way", one.amendment_under_way},
+            {"version_in_words", ""},
+            {"not_corrected", nlohmann::json::array()},
+            {"outcome", outcome_of(one)},
+            {"shift", nullptr},
+            {"changes", nlohmann::json::array()},
+            {"draft", one.draft_folder},
+            {"no_draft", one.no_draft},
+            {"cannot_say", ""}};
         if (one.recalculated) {
             const evaluation::RerunRecord& rerun = one.recalculated->rerun;
             shown["changes"] = shown_change_list(*one.recalculated);
@@ -1026,7 +1187,7 @@ std::string affected_json(const std::vector<AffectedCertificate>& affected, cons
             shown["version_in_words"] = one.recalculated->version_in_words;
             if (rerun.not_evaluated) {
                 shown["cannot_say"] = rerun.not_evaluated->what;
-            } else {
+            } else if (is_calculated(one)) {
                 shown["shift"] = one.recalculated->shift;
             }
         }
@@ -1042,11 +1203,10 @@ std::string affected_json(const std::vector<AffectedCertificate>& affected, cons
 std::string affected_csv(const std::vector<AffectedCertificate>& affected) {
     std::string all = "number,state,used_from,used_to,through,because,outcome,shift,draft,through_state\n";
     for (const AffectedCertificate& one : affected) {
-        const bool calculated = one.recalculated && !one.recalculated->rerun.not_evaluated;
         all += text::csv_field(one.certificate.number) + "," + one.certificate.state + "," +
                text::csv_field(one.used_from) + "," + text::csv_field(one.used_to) + "," +
                text::csv_field(one.through) + "," + text::csv_field(one.because.front().text) + "," + outcome_of(one) +
-               "," + (calculated ? nlohmann::json(one.recalculated->shift).dump() : "") + "," +
+               "," + (is_calculated(one) ? nlohmann::json(one.recalculated->shift).dump() : "") + "," +
                text::csv_field(one.draft_folder) + "," + one.through_state + "\n";
     }
     return all;

@@ -47,9 +47,19 @@ struct Recalculation {
     /// Where the job states something of the standard itself, which is not corrected: "job.json#/inputs/d/source". Where nothing
     /// else changes either, nothing can be said.
     std::vector<std::string> not_corrected = {};
+    bool takes_standard = true;  ///< its job reads the file of the register; where it does not, it is not evaluated
+    std::string not_read = {};   ///< why its job was not read as a whole; "" where it was
+    /// Where it does not take the standard: what it names as sources, each once, but what its files of the register are of.
+    std::vector<std::string> sources = {};
 
     /// Whether the certificate would state anything else than it does, outside of its annexes: what an amendment tells.
     [[nodiscard]] bool states_otherwise() const { return !rerun.not_evaluated && (results_change || !texts.empty()); }
+};
+
+/// Another certificate that was found, and on which one rests.
+struct FoundBefore {
+    std::string number, state;
+    bool is_same = false;  ///< after recalculate(): it comes out the same, and all on which it rests itself
 };
 
 /// A certificate that rests on it.
@@ -59,11 +69,9 @@ struct AffectedCertificate {
     std::vector<StandardReference> because;  ///< what its record says
     std::string through;        ///< number of the certificate that it rests on itself; "" where on the standard
     std::string through_state;  ///< of that certificate, which may be withdrawn
-    /// Of one that rests on the standard: another certificate that was found, and on which it rests, too; "" else.
-    std::string also_through = {};
-    std::string also_through_state = {};
-    std::string withdrawn_amendment;  ///< number of what took its place and was withdrawn; "" else
-    std::string withdrawn_record;     ///< SHA-256 of the record of that; "" else
+    std::vector<FoundBefore> rests_on = {};  ///< all of them; withdrawn ones, too
+    std::string withdrawn_amendment;         ///< number of what took its place and was withdrawn; "" else
+    std::string withdrawn_record;            ///< SHA-256 of the record of that; "" else
     std::string amendment_under_way;  ///< number of a draft that amends or replaces it and is not issued yet; "" else
     std::string draft_number;         ///< the next free number of an amendment of it
     std::string draft_name = {};      ///< of a folder for its draft, another one for each certificate that was found
@@ -96,15 +104,15 @@ struct Correction {
         std::make_shared<reports::ReadWordings>();  ///< of all that is drafted
 };
 
-/// On which certificate one rests that is not right itself: "EX-1, which is listed, too"; "" where on the standard
-/// alone.
+/// On which certificate one rests that may not be right itself: "EX-1, which is listed, too"; "" where on the standard alone, or
+/// on such ones that come out the same.
 [[nodiscard]] std::string waits_for(const AffectedCertificate& certificate);
 
-/// Evaluates the job of an affected record with the corrected standard, and compares with what was issued.
+/// Evaluates the job of an affected record with the corrected standard, and compares with what was issued. On which other
+/// certificates it rests is no part of it: recalculate() looks at that when all are calculated.
 /// \param original  bytes of the record
-/// \param waits_for  as waits_for() says of the certificate
-[[nodiscard]] Recalculation recalculation_of(const std::string& number, const std::string& waits_for,
-                                             const std::string& original, const Correction& correction);
+[[nodiscard]] Recalculation recalculation_of(const std::string& number, const std::string& original,
+                                             const Correction& correction);
 
 /// Where drafts of amendments go.
 struct DraftSink {
@@ -116,7 +124,8 @@ struct DraftSink {
 
 /// Calculates all certificates again that are not yet, drafts an amendment of each one that is issued, or whose amendment was
 /// withdrawn, and of which a printed digit, a verdict or a text changes, and ranks them; on several cores, with the same result for
-/// any number of threads. None is drafted beside an amendment that is under way, nor one that would take back what a withdrawn
+/// any number of threads. One that rests on others of the list comes out the same where they do, its job was read, and one
+/// that rests on them alone names no other source. None is drafted beside an amendment that is under way, nor one that would take back what a withdrawn
 /// amendment had stated otherwise.
 /// \param archive  in which they were found
 void recalculate(std::vector<AffectedCertificate>& affected, Archive& archive, const Correction& correction,

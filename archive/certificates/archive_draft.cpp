@@ -15,6 +15,7 @@
 #include "certificate/dates.h"
 #include "certificate/gates/day_of_issue.h"
 #include "certificate/section_data.h"
+#include "certificate/stated_text.h"
 #include "encoding/sha2.h"
 #include "evaluation/read_file.h"
 #include "evaluation/recompute_record.h"
@@ -763,6 +764,10 @@ std::vector<gum::Diagnostic> doubts_about_days(const std::string& record, const 
          .action = "where the printed day is not the true one, state this day in the certificate data, and add the new "
                    "record",
          .severity = gum::Severity::warning}};
+}
+
+bool states_a_reason(const std::string& text) {
+    return certificate::states_a_reason(text);
 }
 
 }  // namespace gumcert::archive

@@ -75,4 +75,7 @@ void require_named_person(const std::string& record, const std::string& number, 
 [[nodiscard]] std::vector<gum::Diagnostic> doubts_about_days(const std::string& record, const std::string& number,
                                                              const std::string& kind, const std::string& day);
 
+/// Whether a text that is given as a reason says something: "-", "n/a" and "tbd" do not, nor do blanks.
+[[nodiscard]] bool states_a_reason(const std::string& text);
+
 }  // namespace gumcert::archive

@@ -174,8 +174,8 @@ public:
             const CertificateLife& life = lives_.at(certificate.number);
             count(found_.by_month, life.issued_at.substr(0, 7));
             count(found_.by_authoriser, life.authorised_by);
+            found_.amendments += life.amends.empty() ? 0U : 1U;  // reports of comparisons, too
         }
-        found_.amendments += lives_.at(certificate.number).amends.empty() ? 0U : 1U;  // reports of comparisons, too
         const std::string done = gumcert::json::text_of(dates, "performed_to");
         const std::string day = done.empty() ? gumcert::json::text_of(dates, "performed_from") : done;
         if (!states_its_measurement(lives_.at(certificate.number))) {
@@ -396,7 +396,7 @@ std::string statistics_text(const ArchiveStatistics& statistics) {
                        counts_as_text("Issued, by who authorised them", statistics.by_authoriser) +
                        counts_as_text("By method", statistics.by_method) +
                        counts_as_text("By kind of evaluation", statistics.by_kind);
-    text += "Amendments: " + std::to_string(statistics.amendments) + "\n";
+    text += "Amendments that were issued: " + std::to_string(statistics.amendments) + "\n";
     if (const std::string set_back = in_words(statistics.set_back); !set_back.empty()) {
         text += "Clocks that were ahead: " + set_back + "\n";
     }

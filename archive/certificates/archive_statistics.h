@@ -59,11 +59,11 @@ struct ArchiveStatistics {
     LogTimes::SetBack set_back;  ///< entries after clocks that were ahead: months of issue may be those of such a clock
     std::map<std::string, std::size_t> by_month;  ///< of issue by the log, "2026-11"; certificates that were issued
     std::map<std::string, std::size_t> by_authoriser;  ///< person of the log; certificates that were issued
-    std::size_t amendments = 0;                        ///< certificates that amend or replace another one
-    std::vector<std::string> not_read;                 ///< certificates whose records cannot be read
-    std::vector<ArchivedScores> scores;                ///< by day, then by number
-    std::vector<RepeatabilityChart> charts;            ///< of two sets of readings or more, by method, input, value
-    std::vector<UnchartedScatter> uncharted;           ///< by method, input and unit, then by value
+    std::size_t amendments = 0;               ///< certificates that were issued and amend or replace another one
+    std::vector<std::string> not_read;        ///< certificates whose records cannot be read
+    std::vector<ArchivedScores> scores;       ///< by day, then by number
+    std::vector<RepeatabilityChart> charts;   ///< of two sets of readings or more, by method, input, value
+    std::vector<UnchartedScatter> uncharted;  ///< by method, input and unit, then by value
 };
 
 /// Reads all records of an archive. Withdrawn certificates are counted by state only. Of a certificate and its amendments scores

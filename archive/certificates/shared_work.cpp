@@ -67,6 +67,9 @@ std::string as_text(const Recalculation& one) {
                    {"texts", std::move(texts)},
                    {"results_change", one.results_change},
                    {"not_corrected", one.not_corrected},
+                   {"takes_standard", one.takes_standard},
+                   {"not_read", one.not_read},
+                   {"sources", one.sources},
                    {"counts", one.rerun.counts},
                    {"made_by", {one.rerun.made_by.version, one.rerun.made_by.commit}},
                    {"kind", one.rerun.kind},
@@ -82,6 +85,9 @@ Recalculation recalculation_in(const std::string& number, const std::string& tex
     one.rerun.kind = gumcert::json::text_of(value, "kind");
     one.results_change = value.at("results_change").get<bool>();
     one.not_corrected = value.at("not_corrected").get<std::vector<std::string>>();
+    one.takes_standard = value.at("takes_standard").get<bool>();
+    one.not_read = value.at("not_read").get<std::string>();
+    one.sources = value.at("sources").get<std::vector<std::string>>();
     value.at("counts").get_to(one.rerun.counts);
     for (const json& change : value.at("changes")) {
         one.rerun.changes.push_back({static_cast<evaluation::ChangeKind>(change.at(0).get<int>()),
@@ -153,8 +159,7 @@ WorkToShare work_of(const std::vector<AffectedCertificate>& affected, const Corr
                  .input = dumped({{"standard", correction.standard}, {"corrected", correction.corrected}})},
         .tasks = {}};
     for (const AffectedCertificate& one : affected) {
-        shared.tasks.push_back(
-            {one.certificate.number, dumped({{"record", one.certificate.record}, {"waits_for", waits_for(one)}})});
+        shared.tasks.push_back({one.certificate.number, dumped({{"record", one.certificate.record}})});
     }
     return identified(std::move(shared));
 }
@@ -181,10 +186,8 @@ std::size_t ArchiveWorker::do_some(const SharedWork& work) {
     std::atomic<std::size_t> not_evaluated = 0;
     const auto work_at = [&](const std::vector<WorkTask>& tasks) {
         std::vector<std::string> records;  // the archive is asked by one thread
-        std::vector<json> inputs;
         for (const WorkTask& task : tasks) {
-            inputs.push_back(json::parse(task.input));
-            records.push_back(archive_.content(gumcert::json::text_of(inputs.back(), "record")).value_or(""));
+            records.push_back(archive_.content(gumcert::json::text_of(json::parse(task.input), "record")).value_or(""));
         }
         std::vector<std::string> results(tasks.size());
         not_evaluated = 0;  // the table may ask again
@@ -196,8 +199,7 @@ std::size_t ArchiveWorker::do_some(const SharedWork& work) {
                 is_evaluated = replay.evaluated;
                 results[i] = as_text(replay);
             } else {
-                const Recalculation again = recalculation_of(
-                    tasks[i].name, gumcert::json::text_of(inputs[i], "waits_for"), records[i], correction);
+                const Recalculation again = recalculation_of(tasks[i].name, records[i], correction);
                 is_evaluated = !again.rerun.not_evaluated;
                 results[i] = as_text(again);
             }

@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "certificate/text_words.h"
 #include "gum/expression/name.h"
 #include "json/members.h"
 #include "reports/record/evaluation_record.h"
@@ -172,6 +173,17 @@ private:
     }
 };
 
+/// Whether the letters and digits of a name stand in those of a text: "NMI 2026 0117" is NMI-2026-0117 in other words, and
+/// NMI-2026-01171 is not.
+bool has_letters_of(const std::string& text, const std::string& name) {
+    const std::u32string all = certificate::letters_of(text);
+    const std::u32string sought = certificate::letters_of(name);
+    const std::size_t at = sought.empty() ? std::u32string::npos : all.find(sought);
+    const auto is_digit_at = [&](std::size_t i) { return i < all.size() && certificate::is_digit(all[i]); };
+    return at != std::u32string::npos && !(certificate::is_digit(sought.back()) && is_digit_at(at + sought.size())) &&
+           !(certificate::is_digit(sought.front()) && at > 0 && is_digit_at(at - 1));
+}
+
 /// Looks for what a file of a job states of a standard itself.
 class OwnStatements {
 public:
@@ -204,8 +216,9 @@ private:
     /// Of a text, or of texts in several languages.
     [[nodiscard]] bool names_it(const nlohmann::json& value) const {
         if (value.is_string()) {
+            const std::string& text = value.get_ref<const std::string&>();
             return std::ranges::any_of(
-                standard_, [&](const std::string& name) { return names(value.get_ref<const std::string&>(), name); });
+                standard_, [&](const std::string& name) { return names(text, name) || has_letters_of(text, name); });
         }
         return value.is_structured() &&
                std::any_of(value.begin(), value.end(), [&](const nlohmann::json& item) { return names_it(item); });

@@ -38,7 +38,7 @@ struct RecordReferences {
 
 /// Where a file of a job states something of a standard itself, in place of taking it from the register: a text at the key
 /// `source` or `sensor` that names it, but beside such a `standard`, and a row of `standards` with members. JSON pointers, in
-/// their order.
+/// their order. Here blanks and hyphens make no other name.
 /// \param standard  its name, and those of its certificates
 [[nodiscard]] std::vector<std::string> stated_by_hand(const nlohmann::json& file,
                                                       const std::vector<std::string>& standard);

@@ -332,7 +332,7 @@ void amendment(FindingList& found, const CertificateData& data) {
         found.critical("R12", iso_17025("7.8.8.1"), "/amendment/changes", "the changed information is not identified",
                        "List the changes, or name the record of the earlier certificate.");
     }
-    if (!is_stated(a.reason)) {
+    if (!states_a_reason(a.reason)) {
         found.major("R12", iso_17025("7.8.8.1"), "/amendment/reason", "the reason of the change is missing",
                     "State it.");
     }

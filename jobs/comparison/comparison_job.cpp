@@ -42,7 +42,7 @@ void require_whole_amendment(const certificate::CertificateData& data, const std
         refuse("the report has the number " + text::in_quotes(stated.number) + " of the one that it amends or replaces",
                "give it a number of its own");
     }
-    if (!certificate::is_stated(stated.reason)) {
+    if (!certificate::states_a_reason(stated.reason)) {
         refuse("no reason for the amendment is stated", "state \"reason\" of the amendment");
     }
     if (!certificate::any_stated(stated.changes)) {

@@ -46,7 +46,7 @@ std::optional<Exclusion> read_exclusion(const JsonObject& object) {
     if (!reader.accepted("reason") || !is_whole) {
         return std::nullopt;
     }
-    if (!certificate::is_stated(exclusion.reason)) {
+    if (!certificate::states_a_reason(exclusion.reason)) {
         object.refuse(k_bad_exclusion, "reason", "the reason " + text::in_quotes(exclusion.reason) + " says nothing",
                       "what is left out is left out for a reason, which the documents print", "state the reason");
     }

@@ -212,8 +212,13 @@ def bodies_of(entry):
 
 
 def without_settings(evidence):
-    """The same life in an archive in which anybody may do everything."""
+    """The same life in an archive in which anybody may do everything, with documents that print no heads: a log that is made anew has
+    other ones."""
     evidence = copy.deepcopy(evidence)
+    for index, content in enumerate(evidence["contents"]):
+        data = base64.b64decode(content["base64"])
+        if verify_archive.PRINTED_HEAD.search(data):
+            evidence = with_document(evidence, verify_archive.PRINTED_HEAD.sub(b"", data), index)
     evidence["entries"] = [one for one in evidence["entries"] if one["kind"] != "settings"]
     body = json.loads(evidence["entries"][0]["body"])
     body["settings"] = {"four_eyes": False, "numbering": "", "persons": {}}
@@ -246,11 +251,11 @@ def numbers_of_rules(both, plain):
         both.judge(f"a document that prints the root {root[:3]}", made_anew(with_document(base, f"%PDF-1.7 gumcert-head:1:{root}".encode())), sound=not is_head)
 
 
-def with_document(evidence, data):
-    """Another last content, under its own hash."""
-    digest = evidence["contents"][-1]["sha256"]
+def with_document(evidence, data, index=-1):
+    """Another content, the last one where none is named, under its own hash."""
+    digest = evidence["contents"][index]["sha256"]
     evidence = json.loads(json.dumps(evidence).replace(digest, hashlib.sha256(data).hexdigest()))
-    evidence["contents"][-1]["base64"] = base64.b64encode(data).decode()
+    evidence["contents"][index]["base64"] = base64.b64encode(data).decode()
     return evidence
 
 

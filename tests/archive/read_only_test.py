@@ -91,7 +91,7 @@ def main():
             expect(ended.returncode in (0, 1), f"{reader}, a link: {ended.returncode} {ended.stderr}")
             expect(len(files_in(folder)) == 2, f"{reader}, a link: leaves {sorted(files_in(folder))}")
         for one in (archive, link):
-            ended = readers.run([readers.program, "archive", "settings", "--store", one, "--by", "K", "--why", "w"], False)
+            ended = readers.run([readers.program, "archive", "settings", "--store", one, "--by", "K", "--why", "agreed"], False)
             expect(ended.returncode == 5 and "GC-ARCHIVE-0014" in ended.stderr, f"written by one of two names: {ended.returncode} {ended.stderr}")
         link.unlink()
         expect(files_in(folder) == before, "an archive with two names was written")

@@ -47,7 +47,7 @@ class Trial:
 
     def words(self, action, out):
         return {"number": ["number", "--store", self.store, "--by", "K"],
-                "settings": ["settings", "--store", self.store, "--by", "K", "--why", "w", "--numbering", "N-#####", "--no-four-eyes"],
+                "settings": ["settings", "--store", self.store, "--by", "K", "--why", "agreed", "--numbering", "N-#####", "--no-four-eyes"],
                 "init": ["init", "--store", out, "--by", "K"],
                 "migrate": ["migrate", "--store", self.store, "--to", out],
                 "backup": ["backup", "--store", self.store, "--by", "K", "-o", out]}[action]

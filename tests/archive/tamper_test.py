@@ -249,6 +249,25 @@ def four_eyes_spelled(rng, db):
     rewrite(db, log)
 
 
+def record_of_another_number(rng, db):
+    """A record that states another number than its entries, in a chain made anew."""
+    log = entries(db)
+    drafted = rng.choice([e for e in log if e["kind"] == "drafted"])
+    digest, number = drafted["record"], json.dumps(drafted["certificate"]).encode()
+    (data,) = db.execute("SELECT bytes FROM content WHERE sha256 = ?", [digest]).fetchone()
+    stated = {"certificate": {"data": {"number": "X-1"}}}
+    decoy = b'\n "certificate": {\n  "data": {\n   "number": ' + number + b"\n  }\n }\n"
+    other = rng.choice([data.replace(number, b'"X-1"'), json.dumps(stated).encode(), json.dumps(stated, indent=1).encode(),
+                        json.dumps(stated)[:-1].encode() + b', "y": {' + decoy + b"}}\n", b'{"a": {' + decoy + b"}, " + json.dumps(stated)[1:].encode()])
+    found = verify_archive.hashlib.sha256(other).hexdigest()
+    db.execute("INSERT OR IGNORE INTO content VALUES(?, ?)", [found, other])
+    db.execute("DELETE FROM content WHERE sha256 = ?", [digest])
+    for entry in log:
+        entry.update(record=(entry["record"] or "").replace(digest, found), body=entry["body"].replace(digest, found))
+    rewrite(db, log)
+    list_again(db)
+
+
 def truncate(rng, db):
     """Cuts off the end, with the contents that nobody names any more."""
     last = db.execute("SELECT max(seq) FROM log").fetchone()[0]
@@ -301,7 +320,7 @@ GRAMMARS = [another_grammar(text) for text in (
 ATTACKS = [edit_body, edit_time, edit_person, edit_number, edit_content, swap_contents, delete_content, add_content, edit_list, take_from_list,
            add_to_list, delete_entry,
            delete_and_renumber, swap_entries, move_between_fields, replace_entry, forged_state, four_eyes_broken,
-           four_eyes_spelled, *GRAMMARS]
+           four_eyes_spelled, record_of_another_number, *GRAMMARS]
 ATTACKS_ON_THE_END = [truncate, recompute, rewritten_from_the_start]  # without a head nobody can know
 
 

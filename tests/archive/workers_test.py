@@ -8,6 +8,7 @@ log: the answers and the drafts are the same bytes.
 """
 
 import argparse
+import json
 import pathlib
 import random
 import shutil
@@ -26,12 +27,17 @@ def files_below(folder):
 
 
 def verified_by_the_second(archive, driver, address, folder):
-    """Faults of the way by which the verifier that has no client of PostgreSQL verifies a server."""
+    """Faults of the way by which the verifier that has no client of PostgreSQL verifies a server: of an archive of chance, for the
+    records of the other one state another number than their entries."""
     verifier = ROOT / "tools" / "verify_archive.py"
+    subprocess.run([driver, "make", folder / "chance.archive", "1", "14"], check=True)
+    subprocess.run([driver, "migrate", folder / "chance.archive", address], check=True)
+    listed = subprocess.run(archive("list", "--store", address, "--format", "json"), check=True, stdout=subprocess.PIPE).stdout
+    number = next(one["number"] for one in json.loads(listed)["certificates"] if one["record"])
     copy, head, evidence = folder / "copy.archive", folder / "head.json", folder / "evidence.json"
     subprocess.run(archive("head", "--store", address, "-o", head, "-q"), check=True)
     subprocess.run(archive("backup", "--store", address, "--by", "K. Keeper", "--today", time.strftime("%Y-%m-%d", time.gmtime()), "-o", copy, "-q"), check=True)
-    subprocess.run(archive("export", "L-7", "--store", address, "--since", head, "-o", evidence, "-q"), check=True)
+    subprocess.run(archive("export", number, "--store", address, "--since", head, "-o", evidence, "-q"), check=True)
     faults = []
     for words in ([copy, "--head", head], [evidence, "--head", head]):
         done = subprocess.run([sys.executable, "-B", verifier, *words], stdout=subprocess.PIPE, text=True, check=False)
@@ -123,7 +129,7 @@ def main():
         replayed = subprocess.run(archive("replay", "--store", address, "--shared"), stdout=subprocess.PIPE, text=True, check=False)
         if done.returncode or replayed.returncode or f"{options.certificates} of {options.certificates} records" not in replayed.stdout:
             faults.append(f"replay: {replayed.returncode}, {replayed.stdout[-200:]}")
-        faults += verified_by_the_second(archive, options.driver, address, folder)
+        faults += verified_by_the_second(archive, options.driver, server.new_database(), folder)
         refused = subprocess.run(archive("worker", "--store", store), stderr=subprocess.PIPE, text=True, check=False)
         if refused.returncode != 2:
             faults.append(f"a worker of a file: exit code {refused.returncode}")

@@ -138,7 +138,7 @@ TEST_F(ArchiveOfALaboratory, RefusesACommandLineThatSaysTooMuchOrTooLittle) {
         {"archive", "verify", "evidence.json", "--store", store()},
         {"archive", "init", "--store", path("b.archive"), "--by", "K", "--person", "R. Lin"},
         {"archive", "init", "--store", path("b.archive"), "--by", "K", "--person", "R. Lin=boss"}};
-    for (const char* const blank : {"", " ", "\u00A0 \u2003", "\u200B"}) {
+    for (const char* const blank : {"", " ", "\u00A0 \u2003", "\u200B", "-", "n/a"}) {
         wrong.push_back({"archive", "withdraw", "EX-1", "--store", store(), "--by", "R. Lin", "--why", blank});
         wrong.push_back({"archive", "settings", "--store", store(), "--by", "R. Lin", "--why", blank});
     }
@@ -607,7 +607,8 @@ TEST_F(ArchiveOfALaboratory, GoesByTheLogAndItsHashes) {
     EXPECT_EQ(archive({"issue", "EX-2026-0042"}, "M. Weber").code, 0);
     tampered("UPDATE log SET actor = 'N. Obody' WHERE kind = 'authorised'");
     EXPECT_TRUE(tells(archive({"statistics"}), "[GC-ARCHIVE-0013]"));
-    EXPECT_TRUE(tells(archive({"withdraw", "EX-2026-0042", "--why", "x"}, "M. Weber"), "[GC-ARCHIVE-0013]"));
+    EXPECT_TRUE(
+        tells(archive({"withdraw", "EX-2026-0042", "--why", "it was damaged"}, "M. Weber"), "[GC-ARCHIVE-0013]"));
 }
 
 TEST_F(ArchiveOfALaboratory, IsReviewedAndAuthorisedByWhomTheCertificateNames) {

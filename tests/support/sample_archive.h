@@ -33,7 +33,8 @@ private:
 inline Draft sample_draft(const std::string& number, const std::string& content = "1") {
     return {.number = number,
             .item = "End gauge, SN-" + content,
-            .record = R"({"record": ")" + number + " " + content + "\"}\n",
+            .record = "{\n \"certificate\": {\n  \"data\": {\n   \"number\": \"" + number +
+                      "\"\n  }\n },\n \"record\": \"" + content + "\"\n}\n",
             .documents = {{"certificate.pdf", "application/pdf", "%PDF-1.7 " + number + " " + content},
                           {"certificate.xml", "application/xml", "<dcc>" + number + " " + content + "</dcc>"}}};
 }

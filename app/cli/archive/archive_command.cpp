@@ -14,9 +14,9 @@
 #include "app/cli/terminal/clock.h"
 #include "app/cli/terminal/output_places.h"
 #include "app/cli/terminal/terminal.h"
+#include "archive/certificates/archive_draft.h"
 #include "evaluation/laboratory_overview.h"
 #include "text/lists.h"
-#include "text/utf8.h"
 #include "text/visible_text.h"
 
 namespace gumcert::cli {
@@ -131,16 +131,9 @@ void require_options(const Action& action, const ArchiveOptions& o) {
         refuse_stdout("--store", o.store);
     }
     refuse_stdout("--to", o.to);
-    // A blank is no reason, of whatever width it is.
-    bool says_nothing = true;
-    for (std::size_t at = 0; at < o.why.size() && says_nothing;) {
-        const text::Character one = text::decode_utf8(o.why, at);
-        says_nothing = one.bytes > 0 && (text::is_blank(one.code) || text::is_hidden(one.code));
-        at += one.bytes;
-    }
-    if ((name == "withdraw" || name == "settings" || !o.why.empty()) && says_nothing) {
-        refuse_usage(command, o.why.empty() ? "--why is missing" : "--why has no word",
-                     "what is withdrawn, or settled otherwise, has a reason", "say why");
+    if ((name == "withdraw" || name == "settings" || !o.why.empty()) && !archive::states_a_reason(o.why)) {
+        refuse_usage(command, o.why.empty() ? "--why is missing" : "--why " + text::in_quotes(o.why) + " says nothing",
+                     "what is withdrawn, or settled otherwise, has a reason, and a reason says something", "say why");
     }
 }
 

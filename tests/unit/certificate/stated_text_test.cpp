@@ -197,5 +197,62 @@ TEST(StatedText, LettersAndANumberNameADocument) {
     }
 }
 
+TEST(StatedReason, IsWhatAUserWouldGive) {
+    for (const char* const reason : {"number not needed",
+                                     "error in the serial number",
+                                     "customer name missing",
+                                     "item not received",
+                                     "unknown customer",
+                                     "typing error",
+                                     "wrong date",
+                                     "test",
+                                     "no order",
+                                     "duplicate",
+                                     "order 17",
+                                     "errata",
+                                     "agreed",
+                                     "Gerät nicht erhalten",
+                                     "kein Auftrag",
+                                     "Seriennummer fehlt",
+                                     "Nummer nicht benötigt",
+                                     "Adresse unbekannt",
+                                     "Tippfehler",
+                                     "Prüfling fehlt",
+                                     "error en el número de serie",
+                                     "equipo no recibido",
+                                     "sin pedido",
+                                     "número no necesario",
+                                     "falta el nombre del cliente",
+                                     "地址不明",
+                                     "測試",
+                                     "序號錯誤",
+                                     "編號不需要",
+                                     "未收到儀器",
+                                     "客戶名稱錯誤",
+                                     "錯"}) {
+        EXPECT_TRUE(states_a_reason(std::string(reason))) << reason;
+        EXPECT_TRUE(states_a_reason(std::string(reason) + ".")) << reason;
+    }
+}
+
+TEST(StatedReason, IsNoneWhereNothingIsSaid) {
+    for (const char* const nothing :
+         {"",  " ",     "-",   "\u2014", "...",   "?",      "n/a",    "N. A.", "Ｎ／Ａ", "tbd", "TBC",    "xxx",
+          "x", "k. A.", "s/d", "none",   "None.", "\u3000", "\u200B", "17",    "asdf",   "無",  "不適用", "待定"}) {
+        EXPECT_FALSE(states_a_reason(std::string(nothing))) << nothing;
+    }
+}
+
+TEST(StatedReason, IsStatedInEveryLanguage) {
+    LocalisedText text;
+    EXPECT_FALSE(states_a_reason(text));
+    text.by_language.emplace_back("en", "serial number missing");
+    EXPECT_TRUE(states_a_reason(text));
+    text.by_language.emplace_back("de", "k. A.");
+    EXPECT_FALSE(states_a_reason(text));
+    text.plain = "serial number missing";
+    EXPECT_FALSE(states_a_reason(text));
+}
+
 }  // namespace
 }  // namespace gumcert::certificate

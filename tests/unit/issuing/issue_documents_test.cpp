@@ -83,6 +83,57 @@ protected:
     reports::PdfWorker worker_{reports::assets()};
 };
 
+/// What was issued holds until the one that takes its place is issued: a draft, a specimen and one of tomorrow supersede nothing.
+TEST(Supersede, AsksWhetherTheLaterOneMayBeIssued) {
+    const auto refusal = [](EvaluationRecord record, const EvaluationRecord& later) -> std::string {
+        try {
+            supersede(record, later, "old.json", "new.json", "2026-11-22");
+        } catch (const gum::InputError& error) {
+            EXPECT_EQ(error.diagnostics().front().code, "GC-CERT-0309");
+            return error.diagnostics().front().what;
+        }
+        EXPECT_EQ(record.certificate ? record.certificate->superseded_by : record.comparison->issuer->superseded_by,
+                  "EX-1/A1");
+        return "";
+    };
+    EvaluationRecord record = test::certified_budget_record();
+    record.certificate->data.number = "EX-1";
+    EvaluationRecord later = record;
+    later.certificate->data.number = "EX-1/A1";
+    EXPECT_THAT(refusal(record, later), HasSubstr("not the record of an amendment"));
+    certificate::Amendment amendment;
+    amendment.kind = "amended";
+    amendment.number = "EX-1";
+    later.certificate->data.amendment = amendment;
+    later.certificate->data.dates.issued = "2026-11-23";  // today elsewhere
+    EXPECT_EQ(refusal(record, later), "");
+    later.certificate->data.dates.issued = "2026-11-24";
+    EXPECT_EQ(refusal(record, later), "dated 2026-11-24, later than today, 2026-11-22");
+    later.certificate->data.dates.issued = "2026-11-21";
+    EXPECT_EQ(refusal(record, test::drafted(later)), "a draft: critical findings block its issue");
+    later.certificate->data.status = "specimen";
+    EXPECT_EQ(refusal(record, later), "a specimen");
+    EvaluationRecord specimen = record;
+    specimen.certificate->data.status = "specimen";
+    EXPECT_EQ(refusal(specimen, later), "");
+    later.certificate->data.status = record.certificate->data.status;
+    EXPECT_EQ(refusal(specimen, later), "");
+    later.certificate->data.dates.issued = "";
+    EXPECT_EQ(refusal(record, later), "without a date of issue");
+
+    EvaluationRecord report;
+    report.comparison.emplace().issuer.emplace().number = "EX-1";
+    EvaluationRecord later_report = report;
+    later_report.comparison->issuer->number = "EX-1/A1";
+    later_report.comparison->issuer->amendment = amendment;
+    EXPECT_EQ(refusal(report, later_report), "without a date of issue");
+    later_report.comparison->issuer->issued = "2026-11-22";
+    EXPECT_EQ(refusal(report, later_report), "");
+    later_report.comparison->issuer->issued = "2027-01-01";
+    EXPECT_THAT(refusal(report, later_report), HasSubstr("later than today"));
+    EXPECT_THAT(refusal(report, later), HasSubstr("a certificate, and what is printed is"));
+}
+
 TEST_F(IssuedDocuments, AreSignedOneInsideOfTheOther) {
     SKIP_WITHOUT_PDF();
     const Key keys[] = {signing::test::rsa_key(3072), signing::test::ec_key()};

@@ -172,7 +172,12 @@ TEST_F(ArchiveOfStandards, AreFoundAllOfThemAndNoOther) {
             const Truth& of = truth[static_cast<std::size_t>(std::stoi(one.certificate.number.substr(3)))];
             const bool is_through =
                 std::ranges::any_of(of.certificates, [&](int other) { return reached.contains(number(other)); });
-            EXPECT_EQ(one.through.empty() && one.also_through.empty(), !is_through) << one.certificate.number;
+            EXPECT_EQ(one.through.empty() && one.rests_on.empty(), !is_through) << one.certificate.number;
+            for (const FoundBefore& other : one.rests_on) {
+                const int i = std::stoi(other.number.substr(3));
+                EXPECT_TRUE(of.certificates.contains(i) && reached.contains(other.number)) << one.certificate.number;
+                EXPECT_EQ(other.state == "withdrawn", truth[static_cast<std::size_t>(i)].is_withdrawn);
+            }
         }
     }
 }
@@ -461,6 +466,104 @@ TEST_F(ArchiveOfStandards, AreNotTheSameWhereSomethingIsNotCorrected) {
     told = calculated("CMP-02", corrected);
     EXPECT_EQ(told["EX-1"]["outcome"], "text") << "U in the row of traceability";
     EXPECT_EQ(told["EX-1"]["not_corrected"].size(), 2U);
+}
+
+/// What rests on others of the list comes out the same where they do, and nothing can be said of it where one of them does not, was
+/// withdrawn, or cannot be judged.
+TEST_F(ArchiveOfStandards, AreTheSameWhereAllOnWhichTheyRestAre) {
+    const std::filesystem::path folder = folder_.file("laboratory");
+    std::filesystem::copy(k_affected_tree / "examples" / "laboratory", folder,
+                          std::filesystem::copy_options::recursive);
+    const auto evaluated = [&](const char* job) {
+        return reports::to_canonical_json(
+            evaluation::evaluate_job(folder / job, evaluation::CovarianceFile::none, 1, k_affected_tree / "templates")
+                .record);
+    };
+    add("EX-1", evaluated("end_gauge.json"));
+    add("EX-9", R"({"results": {"source": "STD-017"}})");
+    const std::string example = evaluation::read_file(folder / "end_gauge.json");
+    const auto add_resting_on = [&](const std::string& number, const std::vector<std::string>& others,
+                                    bool is_of_register = false) {
+        std::string job = example;
+        if (is_of_register) {
+            job.replace(job.find("\"source\": \"CMP-02\""), 18, "\"source\": \"" + others.front() + "\"");
+        } else {
+            json budget{{"schema", "gumcert/job/1"}, {"kind", "budget"}, {"title", number}};
+            budget["inputs"]["z"] = {{"value", 1.0}, {"u", 0.1}, {"unit", "um"}};
+            std::string model = "y = z";
+            for (std::size_t i = 0; i < others.size(); ++i) {
+                const std::string name = "x_" + std::to_string(i);
+                budget["inputs"][name] = {{"value", 1.0}, {"u", 0.1}, {"unit", "um"}, {"source", others[i]}};
+                model += " + " + name;
+            }
+            budget["model"] = {model};
+            job = budget.dump();
+        }
+        std::ofstream(folder / "resting.json") << job;
+        add(number, evaluated("resting.json"));
+    };
+    add_resting_on("EX-2", {"EX-1"}, true);
+    add_resting_on("T-1", {"EX-1"});
+    add_resting_on("T-2", {"T-1", "EX-2"});
+    add_resting_on("T-3", {"T-2", "EX-9"});
+    add_resting_on("T-4", {"T-3", "T-2"});
+    add_resting_on("T-5", {"EX-2", "NMI-2026-0117"});  // a certificate of the standard, by its number
+    add_resting_on("W-1", {"EX-1"});
+    add_resting_on("T-6", {"W-1"});
+    add_resting_on("C-1", {"T-1", "C-2"});  // a circle
+    add_resting_on("C-2", {"C-1"});
+    add_resting_on("B-1", {"EX-2", "certificate NMI-2026-0117 of 2026-03-02"});
+    add_resting_on("B-2", {"EX-2", "NMI 2026 0117"});
+    add_resting_on("B-3", {"EX-2", "K-0815"});         // the serial number
+    add_resting_on("B-4", {"EX-2", "NMI-2026-0171"});  // nobody knows what it is of
+    for (const bool is_listed : {true, false}) {       // files of the job that the record does not hold
+        reports::EvaluationRecord record =
+            evaluation::evaluate_job(folder / "resting.json", evaluation::CovarianceFile::none, 1,
+                                     k_affected_tree / "templates")
+                .record;
+        for (reports::InputFile& file : record.job_files) {
+            file.content.reset();
+        }
+        if (!is_listed) {
+            record.job_files.clear();
+        }
+        add(is_listed ? "B-5" : "B-6", reports::to_canonical_json(record));
+    }
+    (void)archive_.advance("W-1", "withdrawn", by("R. Reviewer"));
+    const std::string registered = evaluation::read_file(folder / "laboratory" / "standards" / "STD-017.json");
+    const auto outcomes = [&](const std::string& corrected) {
+        std::vector<AffectedCertificate> affected = find_affected(archive_, {"STD-017", "2026-03-02", ""}, 1);
+        recalculate(affected, archive_, correction_to(corrected), 1);
+        std::map<std::string, std::string> told;
+        const json all = json::parse(affected_json(affected, {}));
+        for (const json& one : all["certificates"]) {
+            told[one["number"]] = one["outcome"];
+            EXPECT_EQ(one["outcome"] == "cannot_say", one["cannot_say"] != "") << one;
+            const std::string& number = one["number"].get_ref<const std::string&>();
+            EXPECT_EQ(one["shift"].is_null(), one["outcome"] == "cannot_say" || number.starts_with("T-")) << one;
+        }
+        return std::pair(told, affected_text(affected));
+    };
+    const std::map<std::string, std::string> same{{"EX-1", "same"},      {"EX-2", "same"},      {"EX-9", "cannot_say"},
+                                                  {"T-1", "same"},       {"T-2", "same"},       {"T-3", "cannot_say"},
+                                                  {"T-4", "cannot_say"}, {"T-5", "cannot_say"}, {"T-6", "cannot_say"},
+                                                  {"C-1", "cannot_say"}, {"C-2", "cannot_say"}, {"B-1", "cannot_say"},
+                                                  {"B-2", "cannot_say"}, {"B-3", "cannot_say"}, {"B-4", "cannot_say"},
+                                                  {"B-5", "cannot_say"}, {"B-6", "cannot_say"}};
+    const auto [told, text] = outcomes(registered);
+    EXPECT_EQ(told, same);
+    for (const char* const words :
+         {"it rests on EX-1, which comes out the same", "and others, which come out the same",
+          "it rests on W-1, which was withdrawn", "it rests on EX-9, which is listed, too",
+          "states something of the standard itself: resting.json#/inputs/x_1/source",
+          "\"NMI-2026-0171\", which may rest on the standard as well", "the record does not hold"}) {
+        EXPECT_NE(text.find(words), std::string::npos) << words << text;
+    }
+    std::string corrected = registered;
+    corrected.replace(corrected.find("50.000623"), 9, "50.000643");
+    for (const auto& [number, outcome] : outcomes(corrected).first) {
+        EXPECT_EQ(outcome, number == "EX-1" || number == "EX-2" ? "printed" : "cannot_say") << number;
+    }
 }
 
 /// Names of files of a job are not those of its draft: the record of what it amends itself, a list of changes.

@@ -87,5 +87,17 @@ TEST(ArchiveDraft, ReadsFilesAndEvaluatesWithinWallsOfEach) {
     EXPECT_NO_THROW((void)checked_draft(record, {}, checks));
 }
 
+TEST(Reason, SaysSomething) {
+    for (const char* const nothing :
+         {"", " ", "-", "\u2014", "...", "?", "n/a", "N. A.", "tbd", "xxx", "k. A.", "\u3000"}) {
+        EXPECT_FALSE(states_a_reason(nothing)) << nothing;
+    }
+    for (const char* const something :
+         {"typing error", "agreed", "The item was damaged.", "Tippfehler", "\u6253\u932F\u5B57", "errata", "order 17",
+          "number not needed", "kein Auftrag"}) {
+        EXPECT_TRUE(states_a_reason(something)) << something;
+    }
+}
+
 }  // namespace
 }  // namespace gumcert::archive

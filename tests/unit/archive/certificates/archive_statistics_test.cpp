@@ -277,9 +277,12 @@ TEST_F(StatisticsOfAnArchive, CountReadingsOfAnAmendmentOnce) {
         (void)archive_.draft(draft, by("A. Author"));
         EXPECT_EQ(counted(), "2 scores " + (original == "C-1" ? std::string("C-1 C-2") : "C-1/A1 C-2"))
             << "not issued yet";
+        const std::size_t before = statistics_of(archive_).amendments;
+        EXPECT_EQ(before, original == "C-1" ? 0U : 1U) << "no draft is among them";
         for (const char* const kind : {"reviewed", "authorised", "issued"}) {
             (void)archive_.advance(number, kind, by("R. Reviewer"));
         }
+        EXPECT_EQ(statistics_of(archive_).amendments, before + 1);
         EXPECT_EQ(counted(), "2 scores " + number + " C-2");
     }
     (void)archive_.advance("C-1/A1/A1", "withdrawn", by("R. Reviewer"));

@@ -429,6 +429,10 @@ TEST(CompletenessGate, WantsNumberReasonAndChangesOfAnAmendment) {
     c.data.amendment = amendment;
     c.data.amendment->reason = {};
     expect_finding(only(completeness_findings(c)), "R12", iso("7.8.8.1"), k_major, "/amendment/reason");
+    c.data.amendment->reason = "n/a";
+    expect_finding(only(completeness_findings(c)), "R12", iso("7.8.8.1"), k_major, "/amendment/reason");
+    c.data.amendment->reason = "error in the serial number";
+    EXPECT_TRUE(completeness_findings(c).empty());
 }
 
 TEST(CompletenessGate, WantsPersonReasonAndDateOfAWaiver) {

@@ -522,6 +522,26 @@ TEST(ExpandByConvolution, AgreesWithCharacteristicFunctionsAndItsBound) {
     EXPECT_GT(left_out, 20U);
 }
 
+// A law over generated budgets: probabilities come of characteristic functions that polynomials and rotations stand for, factors of the
+// functions themselves. Few readings make series of thousands of terms.
+TEST(ConvolutionDistribution, HasTheProbabilityOfTheInterval) {
+    std::mt19937 random(2);
+    for (int i = 0; i < 400; ++i) {
+        std::vector<Distribution> budget = random_budget(random);
+        for (std::size_t few = random() % 3; few > 0; --few) {
+            budget.push_back(Distribution::student_t(0.0, 0.3, 2.0 + static_cast<double>(random() % 100) / 20.0));
+        }
+        std::vector<ConvolutionTerm> terms;
+        for (const Distribution& d : budget) {
+            terms.push_back({1.0, d});
+        }
+        const double p = std::vector<double>{0.68, 0.95, 0.9545, 0.99}[random() % 4];
+        const double U = convolution_half_width(terms, p);
+        const ConvolutionDistribution distribution(terms);
+        EXPECT_NEAR(distribution(U) - distribution(-U), p, 1e-6) << i;
+    }
+}
+
 TEST(ExpandByConvolution, KnownFactors) {
     const auto k = [](const std::vector<Distribution>& distributions, double p) {
         const SumModel model(distributions);
