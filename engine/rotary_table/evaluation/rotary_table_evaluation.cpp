@@ -18,6 +18,7 @@
 #include "engine/rotary_table/evaluation/repeatability_check.h"
 #include "engine/rotary_table/evaluation/rival_tables.h"
 #include "engine/rotary_table/evaluation/scaled_lengths.h"
+#include "engine/rotary_table/evaluation/stated_positions.h"
 #include "engine/rotary_table/geometry_check.h"
 #include "engine/rotary_table/group_notes.h"
 #include "engine/rotary_table/start/start_search.h"
@@ -1444,6 +1445,7 @@ Adjusted adjust_and_test(const RotaryTableMeasurement& measurement, StartSearch&
                k_harm;
     };
     std::ranges::move(geometry_notes(measurement, positions, harms), std::back_inserter(solution.notes));
+    std::ranges::move(stated_position_notes(measurement, positions), std::back_inserter(solution.notes));
     if (const auto inclined = inclination_note(measurement.axis, rigid_motion(solution.datum.set_up))) {
         solution.notes.push_back(*inclined);
     }
