@@ -43,8 +43,7 @@ std::string place_of(const GroupTest& test, const RotaryTableMeasurement& measur
                measurement.stations[test.station] + ", pass " + measurement.passes[test.pass] + ", " +
                angle_of(measurement, test.angle);
     }
-    if (test.kind == GroupKind::fixture_scale || test.kind == GroupKind::expansion ||
-        test.kind == GroupKind::fixture_growth) {
+    if (test.kind == GroupKind::fixture_scale || test.kind == GroupKind::expansion) {
         return "fixture";
     }
     if (test.station == GroupTest::k_none) {
@@ -86,23 +85,6 @@ std::string expansion_of(const GroupTest& test, const RotaryTableMeasurement& me
     return "the distances give an expansion coefficient of " + per_kelvin(measurement.expansion - test.estimate, 3) +
            " for the fixture, while " + per_kelvin(measurement.expansion, 3) +
            " is stated, with u = " + per_kelvin(measurement.u_expansion, 2);
-}
-
-/// What is seen is the growth; the change of temperature that it means at the stated expansion is the likely cause.
-std::string growth_of(const GroupTest& test, const RotaryTableMeasurement& measurement) {
-    const double size = std::abs(test.estimate);
-    const std::string ppm = text::significant(size * 1e6, 3) + " ppm from the first visit to the last";
-    const bool each = test.degrees_of_freedom > 1;
-    std::string text =
-        each ? "the whole fixture grows or shrinks while the stations are measured, by " + ppm +
-                   " (root mean square of the stations)"
-             : std::string("the whole fixture ") + (test.estimate > 0.0 ? "grows by " : "shrinks by ") + ppm;
-    if (measurement.expansion > 0.0) {
-        const std::string kelvin = text::significant(size / measurement.expansion, 2) + " K";
-        text += each ? ", as a change of its temperature by " + kelvin + " does"
-                     : ", as if it became " + kelvin + (test.estimate > 0.0 ? " warmer" : " colder");
-    }
-    return text;
 }
 
 std::string what_of(const GroupTest& test, const RotaryTableMeasurement& measurement) {
@@ -158,8 +140,6 @@ std::string what_of(const GroupTest& test, const RotaryTableMeasurement& measure
         case GroupKind::senses:
             return "the distances of this station agree with the others when the senses + and - of its passes are "
                    "interchanged";
-        case GroupKind::fixture_growth:
-            return growth_of(test, measurement);
     }
     return "";
 }
@@ -198,7 +178,6 @@ std::string exclusion_of(const GroupTest& test, const RotaryTableMeasurement& me
         case GroupKind::fixture_scale:
         case GroupKind::fixture_place:
         case GroupKind::expansion:
-        case GroupKind::fixture_growth:
             return "";
     }
     return " The job leaves these distances out with \"exclude\": [{ " + selectors + ", \"reason\": \"why\" }].";
@@ -301,10 +280,6 @@ std::string action_of(const GroupTest& test, const RotaryTableMeasurement& measu
             return "See in the protocol in which senses this station drove the table, and correct the directions in "
                    "the "
                    "lengths file.";
-        case GroupKind::fixture_growth:
-            return "Look at the temperature of the fixture from the beginning to the end of each run: one is stated "
-                   "for "
-                   "each station. Let the fixture settle and measure again, in shorter runs.";
     }
     return "";
 }

@@ -46,7 +46,7 @@ constexpr std::size_t k_fewest_of_place = 4;       // distances: three always ag
 
 /// Kinds that have their level from kinds of one side, and no row of their own where nothing is wrong.
 bool only_where_suspicious(GroupKind kind) {
-    return kind == GroupKind::expansion || kind == GroupKind::senses || kind == GroupKind::fixture_growth;
+    return kind == GroupKind::expansion || kind == GroupKind::senses;
 }
 
 /// Both tests of one visit.
@@ -117,7 +117,6 @@ public:
                     best_scale(),
                     best_fixture_place(),
                     best_expansion(),
-                    best_growth(),
                     senses};
             const std::optional<Candidate> worst = least_probable(last);
             if (!worst || !worst->test.suspicious) {
@@ -816,75 +815,23 @@ private:
     [[nodiscard]] bool scales_explain_more(const GroupTest& expansion) const {
         constexpr double k_share = 0.05;  // less is what a large error does to the linear model
         const auto stations = std::ssize(adjustment_.measurement().stations);
-        std::vector<VisitEffects::Effect> own;
+        VisitEffects::Effect effect(visits_.size());
         for (Index j = 0; j < stations; ++j) {
-            own.push_back(effect_of_scale(adjustment_, visits_, static_cast<std::size_t>(j)));
+            const VisitEffects::Effect own = effect_of_scale(adjustment_, visits_, static_cast<std::size_t>(j));
+            for (std::size_t g = 0; g < own.size(); ++g) {
+                if (own[g].size() > 0) {
+                    effect[g] = MatrixXd::Zero(own[g].rows(), stations);
+                    effect[g].col(j) = own[g];
+                }
+            }
         }
-        const VisitEffects::Projection projection = visits_.projection(side_by_side(own), stations);
+        const VisitEffects::Projection projection = visits_.projection(effect, stations);
         const Inverted inverted = pseudo_inverse(projection.spread, k_controlled * projection.weight);
         const double more =
             projection.weighted.dot(inverted.inverse * projection.weighted) / std::pow(scale_within_visits(), 2) -
             expansion.chi_square;
         return inverted.rank > 1 && more > k_share * expansion.chi_square &&
                judged(GroupKind::expansion, more, inverted.rank - 1, 1).suspicious;
-    }
-
-    /// A fixture whose temperature changes while it is measured grows from visit to visit of each station; what is stated is one
-    /// temperature of each. All stations at one rate, or each at its own, jointly.
-    [[nodiscard]] std::optional<Candidate> best_growth() {
-        const Drifts all = drifts();
-        std::vector<VisitEffects::Effect> columns;
-        for (const VisitEffects::Column& column : all.each) {
-            columns.push_back(effect_of_growth(column));
-        }
-        std::optional<Candidate> best;
-        if (columns.empty()) {
-            return best;
-        }
-        const std::size_t count = columns.size() > 1 ? 2 : 1;
-        const VisitEffects::Effect common = effect_of_growth(all.common);
-        if (const std::optional<GroupTest> test = test_of_one_size(GroupKind::fixture_growth, common, count)) {
-            take(best, {*test, [this, common] { visits_.take_away(common, 1); }});
-        }
-        if (columns.size() > 1) {
-            const auto size = std::ssize(columns);
-            const VisitEffects::Effect joint = side_by_side(columns);
-            const VisitEffects::Projection projection = visits_.projection(joint, size);
-            const Inverted inverted = pseudo_inverse(projection.spread, k_controlled * projection.weight);
-            const VectorXd rates = inverted.inverse * projection.weighted;
-            const double chi_square = projection.weighted.dot(rates);
-            if (inverted.rank > 1 && chi_square >= misfit_of_fixture_) {
-                GroupTest test = judged(GroupKind::fixture_growth, chi_square / std::pow(scale_within_visits(), 2),
-                                        inverted.rank, count);
-                test.estimate = rates.norm() / std::sqrt(static_cast<double>(size));
-                take(best, {test, [this, joint, size] { visits_.take_away(joint, size); }});
-            }
-        }
-        return best;
-    }
-
-    /// What a growth of the fixture, in proportion to a column, does to the distances.
-    [[nodiscard]] VisitEffects::Effect effect_of_growth(const VisitEffects::Column& column) const {
-        const VectorXd& coordinates = adjustment_.adjustment().parameters(adjustment_.fixture_block());
-        VisitEffects::Effect effect(visits_.size());
-        for (const auto& [visit, value] : column) {
-            effect[visit] = value * adjustment_.adjustment().jacobian(visit, adjustment_.fixture_block()) * coordinates;
-        }
-        return effect;
-    }
-
-    /// Effects of which no two have a visit in common, each in a column of its own.
-    [[nodiscard]] VisitEffects::Effect side_by_side(const std::vector<VisitEffects::Effect>& effects) const {
-        VisitEffects::Effect joint(visits_.size());
-        for (std::size_t k = 0; k < effects.size(); ++k) {
-            for (std::size_t g = 0; g < joint.size(); ++g) {
-                if (effects[k][g].size() > 0) {
-                    joint[g] = MatrixXd::Zero(effects[k][g].rows(), std::ssize(effects));
-                    joint[g].col(static_cast<Index>(k)) = effects[k][g];
-                }
-            }
-        }
-        return joint;
     }
 
     /// A station whose senses of approach are interchanged: at each visit the reversal is off, with the other sign. What all
@@ -1408,7 +1355,6 @@ double share_of_level(GroupKind kind) {
         // Half of what succession and station have is not theirs: large values of one sign only count there.
         case GroupKind::expansion:
         case GroupKind::senses:
-        case GroupKind::fixture_growth:
             return 0.005;
     }
     return 0.0;

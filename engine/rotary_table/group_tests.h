@@ -31,12 +31,11 @@ enum class GroupKind {
     fixture_place,         ///< the whole fixture elsewhere on the table from some visit on
     expansion,             ///< the fixture expands with the temperatures otherwise than its coefficient says
     senses,                ///< the senses of approach of a station are interchanged
-    fixture_growth,        ///< the whole fixture grows or shrinks while the stations are measured
 };
 
 /// Share of the level of all tests of groups that a kind has. The rest, a tenth, is for the check of the stated
-/// covariance of the fixture. Drift and single visits have most: the others are found at any level. Expansion, senses and
-/// growth have theirs from succession and station, whose shares are two-sided and whose tests are one-sided.
+/// covariance of the fixture. Drift and single visits have most: the others are found at any level. Expansion and senses have
+/// theirs from succession and station, whose shares are two-sided and whose tests are one-sided.
 [[nodiscard]] double share_of_level(GroupKind kind);
 
 /// A hypothesis on one group of distances, tested against the adjustment without it.
@@ -60,8 +59,7 @@ struct GroupTest {
     /// visit less that at the first, rms where every station has its own; reflector, constant or not, and place of
     /// a station: displacement, [m]; of the fixture: rms of that of its reflectors, [m]; scale of fixture or station: relative,
     /// [1]; expansion: stated coefficient less that of the distances, [1/K]; senses: part of the reversal that the distances
-    /// of the station are off by, nearly 1; growth: relative, from the first visit to the last, rms where every station has its own,
-    /// [1]; angle index: steps. Succession: autocorrelation coefficient of lag 1. Station: ratio of the
+    /// of the station are off by, nearly 1; angle index: steps. Succession: autocorrelation coefficient of lag 1. Station: ratio of the
     /// standard deviations of its visits and of the others.
     double estimate = 0.0;
     double minimal_detectable = 0.0;  ///< found with a probability of 80 %, in the unit of `estimate`; 0: not stated
@@ -88,7 +86,7 @@ struct DriftEstimate {
 struct GroupTests {
     /// Of each kind the group with the largest test value and all that are suspicious; those that are suspicious first,
     /// the least probable one first of all.
-    /// Expansion, senses and growth only where they are suspicious.
+    /// Expansion and senses only where they are suspicious.
     std::vector<GroupTest> tests;
     std::vector<VisitDeviation> visits;      ///< in the order of the measurement
     std::vector<DriftEstimate> drifts = {};  ///< with all visits in; what the other distances do not tell is left out

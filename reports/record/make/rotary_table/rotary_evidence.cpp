@@ -48,7 +48,6 @@ std::pair<const char*, double> unit_of_kind(GroupKind kind) {
         case GroupKind::fixture_scale:
         case GroupKind::station_scale:
         case GroupKind::expansion:  // in a kelvin
-        case GroupKind::fixture_growth:
             return {"ppm", 1e-6};
         default:
             return {"um", gum::k_micrometre};
@@ -412,8 +411,6 @@ const char* group_kind_name(GroupKind kind) {
             return "expansion";
         case GroupKind::senses:
             return "senses";
-        case GroupKind::fixture_growth:
-            return "fixture_growth";
     }
     return "";
 }

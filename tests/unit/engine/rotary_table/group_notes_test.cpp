@@ -62,33 +62,13 @@ TEST(GroupNotes, SayWhatIsStatedOfTheExpansionAndWhatTheDistancesGive) {
     EXPECT_THAT(note.action, testing::Not(HasSubstr("exclude")));
 }
 
-TEST(GroupNotes, SayOfAGrowthWhichTemperatureItMeans) {
-    RotaryTableMeasurement measurement = two_stations();
-    measurement.expansion = 11.5e-6;
-    GroupTest test = suspicious(GroupKind::fixture_growth);
-    test.degrees_of_freedom = 1;
-    test.estimate = -5.75e-6;
-    const auto note = [&] { return group_notes({.tests = {test}, .visits = {}}, measurement)[0]; };
-    EXPECT_EQ(note().where, "fixture");
-    EXPECT_THAT(note().what,
-                HasSubstr("the whole fixture shrinks by 5.75 ppm from the first visit to the last, as if it "
-                          "became 0.5 K colder (chi"));
-    test.degrees_of_freedom = 4;
-    test.estimate = 11.5e-6;
-    EXPECT_THAT(note().what,
-                HasSubstr("by 11.5 ppm from the first visit to the last (root mean square of the stations), as a "
-                          "change of its temperature by 1 K does (chi"));
-    measurement.expansion = 0.0;
-    EXPECT_THAT(note().what, testing::Not(HasSubstr(" K")));
-}
-
 TEST(GroupNotes, SayWhichGroupByHowMuchAndWhatToDo) {
     for (const GroupKind kind :
          {GroupKind::visit_length, GroupKind::visit_pose, GroupKind::dead_path_change, GroupKind::station_place,
           GroupKind::pair_length, GroupKind::drift, GroupKind::angle_index, GroupKind::succession, GroupKind::station,
           GroupKind::reflector, GroupKind::reflector_at_angles, GroupKind::reflector_from_visit,
           GroupKind::fixture_scale, GroupKind::station_scale, GroupKind::fixture_place, GroupKind::expansion,
-          GroupKind::senses, GroupKind::fixture_growth}) {
+          GroupKind::senses}) {
         const auto notes = group_notes({.tests = {suspicious(kind)}, .visits = {}}, two_stations());
         ASSERT_EQ(notes.size(), 1U);
         EXPECT_EQ(notes[0].code, k_suspicious_group);

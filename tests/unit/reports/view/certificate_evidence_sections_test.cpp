@@ -117,7 +117,7 @@ TEST(EvidenceSections, HaveAWordForEveryKindInEveryLanguage) {
         for (const char* kind :
              {"visit_length", "visit_pose", "dead_path_change", "station_place", "pair_length", "drift", "angle_index",
               "succession", "fixture_scale", "station", "reflector", "reflector_at_angles", "reflector_from_visit",
-              "station_scale", "fixture_place", "expansion", "senses", "fixture_growth"}) {
+              "station_scale", "fixture_place", "expansion", "senses"}) {
             EXPECT_FALSE(words["value"]["group_kind"].value(kind, "").empty()) << language << ", " << kind;
             // The size has its power of ten beside it: "13 · 10⁻⁶" of a thing "in 10⁻⁶/K" would be a millionth of it.
             EXPECT_THAT(words["value"]["group_kind"].value(kind, ""), testing::Not(testing::HasSubstr("10⁻⁶")));
