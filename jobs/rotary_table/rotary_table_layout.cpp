@@ -171,8 +171,9 @@ void warn_of_idle_plan(const RotaryTableReading& reading, JobUse use) {
     if (!simulated && plan->contains("angles_deg")) {
         return;
     }
-    for (const char* key : {"angles_deg", "senses", "dead_paths"}) {
-        if (!plan->contains(key)) {
+    for (const char* key : {"angles_deg", "senses", "dead_paths", "sight"}) {
+        const bool plan_uses_it = std::string_view(key) == "sight";
+        if (!plan->contains(key) || (plan_uses_it && !simulated)) {
             continue;
         }
         reading.problems.warn(
@@ -180,7 +181,8 @@ void warn_of_idle_plan(const RotaryTableReading& reading, JobUse use) {
             simulated ? "with a lengths file the layout of a simulation is that of the lengths"
                       : "with a lengths file and without angles_deg the distances of a plan are those of "
                         "the lengths",
-            simulated ? "remove it, or leave out the lengths file" : "remove it, or state plan.angles_deg");
+            simulated ? "leave out the lengths file to simulate the plan; gumcert plan may need the key"
+                      : "remove it, or state plan.angles_deg");
     }
 }
 

@@ -1583,6 +1583,10 @@ TEST(RotaryTableJob, WarnsOfKeysOfAPlanThatMeasuredLengthsLeaveWithoutUse) {
             Not(HasSubstr(unused)));
     }
     EXPECT_THAT(warned(R"({"angles_deg": [0, 90, 180]})", JobUse::simulate), HasSubstr("angles_deg is not used"));
+    // A plan leaves out what is hidden, of the distances of a file, too.
+    const char* with_sight = R"({"sight": {"reflector_diameter_mm": 12.7}})";
+    EXPECT_THAT(warned(with_sight, JobUse::simulate), HasSubstr("sight is not used"));
+    EXPECT_THAT(warned(with_sight, JobUse::plan), Not(HasSubstr("sight is not used")));
     EXPECT_EQ(warned(without_angles, JobUse::evaluate), "") << "a plan beside what is evaluated";
 }
 
