@@ -115,7 +115,7 @@ set(GUMCERT_EDGES_archive                            text encoding gum/quantity 
 set(GUMCERT_EDGES_outputs                            encoding system gum/quantity json)
 set(GUMCERT_EDGES_evaluation                         text encoding gum/quantity json gum/monte_carlo certificate
                                                      certificate/gates laboratory engine/rotary_table
-                                                     engine/rotary_table/studies gum/budget gum/circle_closure
+                                                     gum/budget gum/circle_closure
                                                      gum/rotary_table gum/rotary_table/studies workbook audit
                                                      audit/rules jobs jobs/certificate jobs/laboratory jobs/budget
                                                      jobs/circle_closure jobs/rotary_table jobs/comparison

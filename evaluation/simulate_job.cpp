@@ -3,7 +3,6 @@
 #include <string>
 #include <vector>
 
-#include "engine/rotary_table/studies/campaign_layout.h"
 #include "gum/rotary_table/fixture_budget.h"
 #include "gum/rotary_table/studies/simulation_basis.h"
 #include "gum/rotary_table/studies/simulation_study.h"
@@ -38,12 +37,9 @@ reports::StudyDocument simulate_job(const jobs::RotaryTableJob& stated, const st
     const gum::SimulationRequest& request = basis.request;
     gum::WorkerThreads workers(threads);
     std::vector<gum::AngleStudy> studies;
-    if (request.angle_counts.empty()) {
-        studies.push_back(
-            gum::study_layout(basis.layout, request, basis.table, job.coverage_probability, 0, workers, progress));
-    }
-    for (const std::size_t count : request.angle_counts) {
-        studies.push_back(gum::study_layout(engine::with_full_turn(basis.layout, count), request, basis.table,
+    const std::vector<std::size_t> of_job{0};
+    for (const std::size_t count : request.angle_counts.empty() ? of_job : request.angle_counts) {
+        studies.push_back(gum::study_layout(gum::simulation::simulated_layout(basis, count), request, basis.table,
                                             job.coverage_probability, count, workers, progress));
     }
     require_a_result(studies);

@@ -2,11 +2,11 @@
 
 namespace gumcert::evaluation {
 
-StudyJob::StudyJob(const std::filesystem::path& file)
+StudyJob::StudyJob(const std::filesystem::path& file, jobs::JobUse use)
     : file_(file),
       disk_(jobs::DiskFileSource::of_job(file)),
       files_(disk_),
-      job_(jobs::read_rotary_table_job(files_, name(), jobs::JobUse::plan)) {}
+      job_(jobs::read_rotary_table_job(files_, name(), use)) {}
 
 std::vector<std::filesystem::path> StudyJob::inputs() const {
     std::vector<std::filesystem::path> paths;

@@ -14,7 +14,7 @@ namespace gumcert::evaluation {
 class StudyJob {
 public:
     /// \throws gum::InputError, gum::StorageError  those of its reader
-    explicit StudyJob(const std::filesystem::path& file);
+    explicit StudyJob(const std::filesystem::path& file, jobs::JobUse use = jobs::JobUse::plan);
 
     [[nodiscard]] const jobs::RotaryTableJob& job() const { return job_; }
     [[nodiscard]] std::string name() const { return file_.filename().string(); }  ///< for documents

@@ -121,7 +121,7 @@ void write_study(const reports::StudyDocument& study, const StudyOutput& output,
 ExitCode simulate(const fs::path& job, std::optional<std::size_t> runs, std::optional<std::int64_t> seed,
                   const std::string& output, const std::string& share, const CommonOptions& common) {
     StudyOutput to = study_output(output, job, common);
-    const evaluation::StudyJob read(job);  // what is wrong with the job goes before what is wrong with the machine
+    const evaluation::StudyJob read(job, jobs::JobUse::simulate);  // before what is wrong with the machine
     prepare_output(to, read, job, share, common);
     ProgressLine progress(!common.quiet);
     const auto unsigned_seed = seed ? std::optional<std::uint64_t>(static_cast<std::uint64_t>(*seed)) : std::nullopt;

@@ -1383,6 +1383,15 @@ Eigen::VectorXd scale_errors_of_stations(const JointAdjustment& adjustment, cons
     return pseudo_inverse(projection.spread, k_controlled * projection.weight).inverse * projection.weighted;
 }
 
+double scale_error_of_fixture(const JointAdjustment& adjustment, const NormalEquations& normal,
+                              const BorderedCovariance& covariance) {
+    const VisitEffects visits(adjustment, normal, covariance);
+    const Eigen::MatrixX3d& fixture = adjustment.measurement().fixture;
+    const VectorXd effect = fixture.transpose().reshaped(fixture.size(), 1);
+    const double spread = effect.dot(visits.own_fixture() * effect);
+    return spread > 0.0 ? effect.dot(visits.weighted_fixture()) / spread : 0.0;
+}
+
 GroupTests test_groups(const JointAdjustment& adjustment, const NormalEquations& normal,
                        const BorderedCovariance& covariance, const GroupTestOptions& options) {
     return GroupSearch(adjustment, normal, covariance, options).run();

@@ -130,4 +130,9 @@ struct GroupTestOptions {
                                                        const BorderedCovariance& covariance,
                                                        const std::vector<std::size_t>& stations);
 
+/// By how much, relatively, the coordinates of the fixture are too large as a whole; GroupTest::estimate of
+/// GroupKind::fixture_scale. 0 where the distances do not tell it.
+[[nodiscard]] double scale_error_of_fixture(const JointAdjustment& adjustment, const NormalEquations& normal,
+                                            const BorderedCovariance& covariance);
+
 }  // namespace gumcert::engine

@@ -290,6 +290,7 @@ private:
             read_layout(reading, *observations, names, places);
         }
         check_home_of_plan(reading);
+        warn_of_idle_plan(reading, use_);
         check_sizes(reading, names, places);
         if (places.is_whole) {
             check_reversal(reading);

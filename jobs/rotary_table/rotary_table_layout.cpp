@@ -18,18 +18,45 @@ namespace {
 
 using gum::k_degree;
 
-/// Angles that are radians by mistake are no multiples of 0.1 as they stand, and multiples of half a degree once they
-/// are converted.
+/// Digits after the decimal point that all of them have, at most 6.
+int decimals_of(const std::vector<double>& values) {
+    constexpr int k_most = 6;
+    double scale = 1.0;
+    for (int decimals = 0; decimals < k_most; ++decimals, scale *= 10.0) {
+        if (std::all_of(values.begin(), values.end(), [&](double value) {
+                return std::abs(value * scale - std::round(value * scale)) < 1e-6 * scale;
+            })) {
+            return decimals;
+        }
+    }
+    return k_most;
+}
+
+/// Angles that are radians by mistake are no multiples of 0.1 as they stand, and once they are converted multiples of half a
+/// degree, or of five degrees where they were rounded to a hundredth: all of them, which chance hardly brings about.
 /// \param angles  ascending, each once, as the file states them
-bool look_like_radians(const std::vector<double>& angles) {
+/// \return what they are multiples of, [°]
+std::optional<double> step_as_radians(const std::vector<double>& angles) {
+    constexpr double k_exact = 0.01;  // [°]
+    constexpr double k_by_chance = 1e-4;
     const double span = angles.back() - angles.front();
     const auto off_multiple = [](double value, double step) {
         return std::abs(value - step * std::round(value / step));
     };
-    return angles.size() >= 6 && span > 3.1 && span <= 6.2832 &&
-           std::all_of(angles.begin(), angles.end(),
-                       [&](double angle) { return off_multiple(angle / k_degree, 0.5) <= 0.01; }) &&
-           std::any_of(angles.begin(), angles.end(), [&](double angle) { return off_multiple(angle, 0.1) > 1e-6; });
+    if (angles.empty() || span <= 3.1 || span > 6.2832 ||
+        std::all_of(angles.begin(), angles.end(), [&](double angle) { return off_multiple(angle, 0.1) <= 1e-6; })) {
+        return std::nullopt;
+    }
+    const double off = k_exact + 0.5 * std::pow(10.0, -decimals_of(angles)) / k_degree;
+    for (const double step : {0.5, 5.0}) {
+        const double by_chance = std::pow(2.0 * off / step, static_cast<double>(angles.size() - 1));
+        if (by_chance < k_by_chance && std::all_of(angles.begin(), angles.end(), [&](double angle) {
+                return off_multiple(angle / k_degree, step) <= off;
+            })) {
+            return step;
+        }
+    }
+    return std::nullopt;
 }
 
 std::string home_angle(const RotaryTableReading& reading) {
@@ -79,12 +106,12 @@ void read_layout(const RotaryTableReading& reading, const JsonObject& observatio
 
 void check_angles(const RotaryTableReading& reading, const MeasuredPlaces& places, const std::string& where_angles,
                   const std::string& where_all, ProblemList& problems) {
-    if (look_like_radians(places.angles_deg)) {
+    if (const std::optional<double> step = step_as_radians(places.angles_deg)) {
         problems.refuse(k_angles_in_radians, where_angles,
                         counted(places.angles_deg.size(), "angle") + " from " +
                             text::shortest_plain(places.angles_deg.front()) + " to " +
-                            text::shortest_plain(places.angles_deg.back()) +
-                            " are multiples of half a degree when they are taken as radians",
+                            text::shortest_plain(places.angles_deg.back()) + " are multiples of " +
+                            (*step < 1.0 ? "half a degree" : "5°") + " when they are taken as radians",
                         "angles are in degrees", "convert the angles to degrees");
         return;
     }
@@ -134,6 +161,31 @@ void check_home_of_plan(const RotaryTableReading& reading) {
     }
 }
 
+void warn_of_idle_plan(const RotaryTableReading& reading, JobUse use) {
+    const RotaryTableJob& job = reading.job();
+    const nlohmann::json* plan = reading.root.find("plan");
+    if (use == JobUse::evaluate || !job.has_lengths || !job.plan || !plan->is_object()) {
+        return;
+    }
+    const bool simulated = use == JobUse::simulate;
+    if (!simulated && plan->contains("angles_deg")) {
+        return;
+    }
+    for (const char* key : {"angles_deg", "senses", "dead_paths", "sight"}) {
+        const bool plan_uses_it = std::string_view(key) == "sight";
+        if (!plan->contains(key) || (plan_uses_it && !simulated)) {
+            continue;
+        }
+        reading.problems.warn(
+            k_warn_unused_value, reading.document.where("/plan/" + std::string(key)), std::string(key) + " is not used",
+            simulated ? "with a lengths file the layout of a simulation is that of the lengths"
+                      : "with a lengths file and without angles_deg the distances of a plan are those of "
+                        "the lengths",
+            simulated ? "leave out the lengths file to simulate the plan; gumcert plan may need the key"
+                      : "remove it, or state plan.angles_deg");
+    }
+}
+
 void check_sizes(const RotaryTableReading& reading, const FixtureNames& fixture, const MeasuredPlaces& places) {
     const RotaryTableJob& job = reading.job();
     const auto check = [&](std::string_view key, std::size_t angles, std::size_t senses) {
@@ -156,9 +208,11 @@ void check_sizes(const RotaryTableReading& reading, const FixtureNames& fixture,
 
 void check_reversal(const RotaryTableReading& reading) {
     const engine::RotaryTableMeasurement& measurement = reading.job().measurement;
+    const RotaryTableJob& job = reading.job();
     if (measurement.reversal != engine::ReversalModel::by_angle) {
         return;
     }
+    const bool measured = job.has_lengths;
     const auto refuse = [&](const std::string& what) {
         reading.root.refuse(
             k_bad_reversal, "reversal", what,
@@ -169,6 +223,12 @@ void check_reversal(const RotaryTableReading& reading) {
         reading.root.refuse(k_bad_reversal, "reversal", "reversal is \"by_angle\", and method is \"sequential\"",
                             "the sequential method knows one reversal of all angles",
                             "choose \"method\": \"joint\", or \"reversal\": \"constant\"");
+        return;
+    }
+    if (!measured) {
+        if (job.plan && !job.plan->both_senses) {
+            refuse("one sense of approach is planned");
+        }
         return;
     }
     std::vector<std::array<bool, 2>> of_station(measurement.stations.size(), {false, false});

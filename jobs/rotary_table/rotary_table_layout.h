@@ -27,6 +27,9 @@ void store_angles(const RotaryTableReading& reading, const MeasuredPlaces& place
 /// A plan beside measured lengths has angles of its own; home is one of them, too.
 void check_home_of_plan(const RotaryTableReading& reading);
 
+/// Keys of a plan that measured lengths leave without use in a study.
+void warn_of_idle_plan(const RotaryTableReading& reading, JobUse use);
+
 /// What is planned or simulated must fit into memory as a measurement does.
 void check_sizes(const RotaryTableReading& reading, const FixtureNames& fixture, const MeasuredPlaces& places);
 

@@ -317,6 +317,15 @@ StudySection agreement_section(const StudiedJob& job, const Basis& basis, const 
     return section;
 }
 
+/// What the reader of the job warns of, such as keys that a simulation does not use.
+StudySection job_section(const StudiedJob& job) {
+    StudySection section{.heading = "Warnings about the job", .paragraphs = {}, .tables = {}, .figures = {}};
+    for (const gum::Diagnostic& warning : job.warnings) {
+        section.paragraphs.push_back(gum::message(warning));
+    }
+    return section;
+}
+
 }  // namespace
 
 reports::StudyDocument document_of(const StudiedJob& job, const Basis& basis, const std::vector<AngleStudy>& studies) {
@@ -335,6 +344,9 @@ reports::StudyDocument document_of(const StudiedJob& job, const Basis& basis, co
                                      .figures = {}});
     }
     document.sections.push_back(agreement_section(job, basis, studies));
+    if (!job.warnings.empty()) {
+        document.sections.push_back(job_section(job));
+    }
     document.data_json = data_json(job, basis, studies);
     return document;
 }

@@ -48,6 +48,7 @@ SOURCES = (
     "reports/record/make/rotary_table/rotary_monte_carlo_record.cpp",
     "reports/record/make/rotary_table/table_parameter_record.cpp",
     "engine/rotary_table/evaluation/repeatability_check.cpp",
+    "engine/rotary_table/evaluation/stated_positions.cpp",
     "engine/rotary_table/group_notes.cpp",
     "engine/rotary_table/reversal_choice.cpp",
     "gum/budget/budget_coverage.cpp",

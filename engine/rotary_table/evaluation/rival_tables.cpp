@@ -11,6 +11,7 @@
 
 #include "engine/median.h"
 #include "engine/rotary_table/datum.h"
+#include "engine/rotary_table/evaluation/stated_positions.h"
 #include "engine/rotary_table/start/millimetres_text.h"
 #include "engine/rotary_table/start/open_places.h"
 #include "engine/rotary_table/start/rival_places.h"
@@ -185,29 +186,22 @@ std::vector<std::size_t> stations_off_stated(const RotaryTableMeasurement& measu
 }
 
 /// Distances do not tell a fixture from the one whose coordinates along the axis have the other sign: the mirror image of the
-/// whole table has the same ones, with error motions that are those of no table. Stated stations that stand just in the mirror image
-/// of where they are found have that sign, or the fixture has it.
+/// whole table has the same ones, with error motions that are those of no table. Stated stations whose positions fit the mirror image
+/// clearly better than where they are found have that sign, or the fixture has it.
 /// \throws gum::NoResultError  GC-ADJUST-0018
 void refuse_mirrored_frame(const RotaryTableMeasurement& measurement, const std::vector<Eigen::Vector3d>& found) {
-    constexpr double k_near = 0.15;  // [m], of a position to some centimetres, with the offset of the fixture
-    constexpr double k_far = 0.3;    // [m]: what is nearer to the plane of the origin is on no side
+    constexpr double k_far = 0.3;  // [m]: what is nearer to the plane of the origin is on no side
     const int axial = axial_coordinate(measurement.axis);
     std::vector<std::size_t> off;
     for (std::size_t j = 0; j < found.size(); ++j) {
         const std::optional<Eigen::Vector3d>& stated = measurement.station_start[j];
-        if (!stated) {
-            continue;
-        }
         Eigen::Vector3d image = found[j];
         image[axial] = -image[axial];
-        if ((image - *stated).norm() > k_near) {
-            return;
-        }
-        if ((found[j] - *stated).norm() > k_far) {
+        if (stated && (found[j] - *stated).norm() > std::max(k_far, (image - *stated).norm())) {
             off.push_back(j);
         }
     }
-    if (off.empty()) {
+    if (off.empty() || fit_of_mirror_image(measurement, found) != MirrorImage::fits_better) {
         return;
     }
     const std::size_t j = off.front();

@@ -18,6 +18,7 @@
 #include "engine/rotary_table/evaluation/repeatability_check.h"
 #include "engine/rotary_table/evaluation/rival_tables.h"
 #include "engine/rotary_table/evaluation/scaled_lengths.h"
+#include "engine/rotary_table/evaluation/stated_positions.h"
 #include "engine/rotary_table/geometry_check.h"
 #include "engine/rotary_table/group_notes.h"
 #include "engine/rotary_table/start/start_search.h"
@@ -497,16 +498,23 @@ const GroupTest* nearly_suspicious(const GroupTests& groups, const GroupTestOpti
     return nearest;
 }
 
-/// Variances of a measurement of which a group is taken for wrong, by what it is said to be.
-StochasticModel variances_without(const GroupTest& group, const JointAdjustment& adjustment,
-                                  const EstimatedComponents& estimated, StochasticModel stochastic,
-                                  const EvaluationOptions& options) {
+/// A measurement of which a group is taken for wrong, by what it is said to be.
+/// \param adjustment  whose visits the errors of the group are those of
+RotaryTableMeasurement without_group(const GroupTest& group, const JointAdjustment& adjustment) {
     RotaryTableMeasurement corrected = adjustment.measurement();
     for (const auto& [visit, error] : group.errors) {
         for (const std::size_t i : adjustment.visits()[visit].observations) {
             corrected.lengths[i].length -= error;
         }
     }
+    return corrected;
+}
+
+/// Variances of a measurement of which a group is taken for wrong, by what it is said to be.
+StochasticModel variances_without(const GroupTest& group, const JointAdjustment& adjustment,
+                                  const EstimatedComponents& estimated, StochasticModel stochastic,
+                                  const EvaluationOptions& options) {
+    const RotaryTableMeasurement corrected = without_group(group, adjustment);
     JointAdjustment without(corrected, adjustment.active(), adjustment.set_up(), adjustment.present_values(),
                             stochastic);
     without.adjustment().set_workers(options.workers);
@@ -520,6 +528,25 @@ StochasticModel variances_without(const GroupTest& group, const JointAdjustment&
                      std::max(options.component_tolerance, k_component_of_a_check), solver);
     iteration.take_plausible(stochastic);
     return stochastic;
+}
+
+/// Groups of a corrected measurement. The variances were estimated with the errors in, which were charged to some of the
+/// components only: at those weights something else would be told that is none.
+/// \param without  solved
+GroupTests groups_at_own_variances(JointAdjustment& without, const EstimatedComponents& estimated,
+                                   StochasticModel stochastic, const EvaluationOptions& options,
+                                   const GroupTestOptions& group_options) {
+    const Progress silent;
+    Iteration iteration(estimated, silent);
+    SolverOptions solver = options.solver;
+    solver.step_tolerance = std::max(solver.step_tolerance, k_step_of_a_check);
+    iteration.settle(without, stochastic, options.max_component_iterations,
+                     std::max(options.component_tolerance, k_component_of_a_check), solver);
+    iteration.take_plausible(stochastic);
+    without.set_weights(stochastic);
+    require_convergence(without.adjustment().refine(solver), without.measurement());
+    const NormalEquations normal = without.adjustment().linearise();
+    return test_groups(without, normal, normal.bordered_covariance(), group_options);
 }
 
 /// A measurement of which the scale errors of some stations are taken off.
@@ -572,19 +599,55 @@ WithoutScaleErrors without_scale_errors_of(const std::vector<GroupTest>& told, c
             left_before[j] = left[j];
         }
     }
-    // The variances were estimated with the errors in, which were charged to some of the components only: at those weights
-    // something else would be told that is none.
-    const Progress silent;
-    Iteration iteration(estimated, silent);
+    return {error, groups_at_own_variances(*without, estimated, stochastic, options, group_options)};
+}
+
+/// Groups of a measurement whose fixture is larger or smaller than stated: by how much, and what else is suspicious, with
+/// coordinates of that size. Of hundreds of ppm the temperatures at the stations and the coefficient go so far from what is stated
+/// that the linearised size is a third off, and reflectors are told beside it.
+GroupTests without_fixture_scale(GroupTests groups, const JointAdjustment& adjustment,
+                                 const EstimatedComponents& estimated, const StochasticModel& stochastic,
+                                 const EvaluationOptions& options, const GroupTestOptions& group_options) {
+    constexpr int k_most_corrections = 8;
+    constexpr double k_settled = 1e-3;  // of the size: it is told with three digits
+    if (groups.tests.empty() || !groups.tests.front().suspicious ||
+        groups.tests.front().kind != GroupKind::fixture_scale) {
+        return groups;
+    }
+    GroupTest told = groups.tests.front();
+    double size = told.estimate;
+    double change = size;
+    double before = 0.0;  // the size that was corrected then, and what was left
+    double left_before = size;
+    RotaryTableMeasurement corrected = adjustment.measurement();
+    std::optional<JointAdjustment> without;
+    // The last steps from a large error are slow, and more than the three digits need.
     SolverOptions solver = options.solver;
     solver.step_tolerance = std::max(solver.step_tolerance, k_step_of_a_check);
-    iteration.settle(*without, stochastic, options.max_component_iterations,
-                     std::max(options.component_tolerance, k_component_of_a_check), solver);
-    iteration.take_plausible(stochastic);
-    without->set_weights(stochastic);
-    require_convergence(without->adjustment().refine(options.solver), corrected);
-    normal.emplace(without->adjustment().linearise());
-    return {error, test_groups(*without, *normal, normal->bordered_covariance(), group_options)};
+    try {
+        for (int k = 0; k < k_most_corrections && std::abs(change) > k_settled * std::abs(size); ++k) {
+            corrected.fixture = adjustment.measurement().fixture / (1.0 + size);
+            without.emplace(corrected, adjustment.active(), adjustment.set_up(), adjustment.present_values(),
+                            stochastic);
+            without->adjustment().set_workers(options.workers);
+            require_convergence(without->adjustment().solve(solver), corrected);
+            without->set_weights(stochastic);
+            require_convergence(without->adjustment().refine(solver), corrected);
+            const NormalEquations normal = without->adjustment().linearise();
+            const double left = scale_error_of_fixture(*without, normal, normal.bordered_covariance());
+            change = left_before != left ? left * (size - before) / (left_before - left) : left;
+            before = std::exchange(size, size + change);
+            left_before = left;
+        }
+        told.estimate = size;
+        GroupTests others = groups_at_own_variances(*without, estimated, stochastic, options, group_options);
+        std::erase_if(others.tests, [](const GroupTest& test) { return test.kind == GroupKind::fixture_scale; });
+        others.tests.insert(others.tests.begin(), told);
+        groups.tests = std::move(others.tests);
+    } catch (const gum::NoResultError&) {
+        return groups;  // a check, which the result does not need
+    }
+    return groups;
 }
 
 /// Groups of a measurement of which stations have scale errors: how large they are, and what else is suspicious, from the
@@ -629,6 +692,45 @@ GroupTests without_scale_errors(GroupTests groups, const JointAdjustment& adjust
     return groups;
 }
 
+/// Groups at given weights where one is nearly suspicious: of few stations it moves most visits, and the robust scale of all of them
+/// hides it. By how much chi-square falls without it, at the scale that is left then. None where it is not suspicious so either.
+std::optional<GroupTests> groups_at_scale_without(const GroupTest& near, const GroupTests& groups,
+                                                  const JointAdjustment& adjustment, const NormalEquations& normal,
+                                                  const StochasticModel& stochastic, const EvaluationOptions& options,
+                                                  const GroupTestOptions& group_options) {
+    const RotaryTableMeasurement corrected = without_group(near, adjustment);
+    JointAdjustment without(corrected, adjustment.active(), adjustment.set_up(), adjustment.present_values(),
+                            stochastic);
+    without.adjustment().set_workers(options.workers);
+    without.copy_parameters_from(adjustment);
+    without.set_weights(stochastic);
+    require_convergence(without.adjustment().refine(options.solver), corrected);
+    const NormalEquations at = without.adjustment().linearise();
+    GroupTests others = test_groups(without, at, at.bordered_covariance(), group_options);
+    const double scale = std::max(1.0, others.scale);
+    GroupTest found = near;
+    found.chi_square = (normal.chi_square() - at.chi_square()) / (scale * scale);
+    found.p_value = group_options.chi_square_upper_tail(std::max(0.0, found.chi_square), found.degrees_of_freedom);
+    found.suspicious =
+        found.p_value < group_options.chi_square_upper_tail(found.critical_value, found.degrees_of_freedom);
+    if (!found.suspicious) {
+        return std::nullopt;
+    }
+    others.tests.insert(others.tests.begin(), found);
+    // What the plots show is the measurement.
+    others.visits = groups.visits;
+    others.drifts = groups.drifts;
+    others.scale = groups.scale;
+    return others;
+}
+
+/// Whether something is suspicious that names a cause.
+bool names_a_cause(const GroupTests& groups) {
+    return std::ranges::any_of(groups.tests, [](const GroupTest& test) {
+        return test.suspicious && test.kind != GroupKind::succession && test.kind != GroupKind::station;
+    });
+}
+
 /// Tests of the groups of an adjustment. Its variances were estimated with the group in, which makes them large and all
 /// test values small: where a group is nearly suspicious, all are tested once more at the variances without it.
 GroupTests groups_of(const JointAdjustment& adjustment, const NormalEquations& normal,
@@ -637,12 +739,16 @@ GroupTests groups_of(const JointAdjustment& adjustment, const NormalEquations& n
                      const GroupTestOptions& group_options) {
     GroupTests groups = without_scale_errors(test_groups(adjustment, normal, covariance, group_options), adjustment,
                                              estimated, stochastic, options, group_options);
+    groups = without_fixture_scale(std::move(groups), adjustment, estimated, stochastic, options, group_options);
     const GroupTest* const near = nearly_suspicious(groups, group_options);
-    const bool told = std::ranges::any_of(groups.tests, &GroupTest::suspicious);
-    if (told || near == nullptr || !(estimated.length || estimated.table)) {
+    if (near == nullptr || names_a_cause(groups)) {
         return groups;
     }
     try {
+        if (!estimated.length && !estimated.table) {
+            return groups_at_scale_without(*near, groups, adjustment, normal, stochastic, options, group_options)
+                .value_or(groups);
+        }
         JointAdjustment again = adjustment;
         again.set_weights(variances_without(*near, adjustment, estimated, stochastic, options));
         require_convergence(again.adjustment().refine(options.solver), again.measurement());
@@ -789,20 +895,38 @@ std::optional<RefutedWeights> check_repeatability(const JointAdjustment& adjustm
     return result.refuted.empty() ? std::nullopt : std::optional(std::move(result));
 }
 
-/// Whether a suspicious group makes the visits scatter, and not the table: without it what is given holds.
-bool is_explained_by(const GroupTests& groups, const RefutedWeights& check, const EvaluationOptions& options) {
-    if (groups.tests.empty() || !groups.tests.front().suspicious) {
+/// Groups of distances, and of which adjustment: their errors are those of its visits.
+struct TestedGroups {
+    GroupTests groups;
+    bool of_all = false;  ///< with the distances that were left out one by one
+};
+
+/// Whether a suspicious group makes the visits scatter, and not the table: without it what is given holds, or all but a tenth of
+/// what it is refuted by is gone. The size of a group is an estimate: of a large one what is left of it scatters more than a table.
+/// \param but_gross  distances of an adjustment of all
+bool is_explained_by(const TestedGroups& tested, const RefutedWeights& check, const std::vector<bool>& but_gross,
+                     const EvaluationOptions& options) {
+    if (tested.groups.tests.empty() || !tested.groups.tests.front().suspicious) {
         return false;
     }
-    const GroupTest& group = groups.tests.front();
+    const GroupTest& group = tested.groups.tests.front();
     if (group.errors.empty()) {
         return true;  // what its distances are off by is not known
     }
     try {
         const StochasticModel without =
-            variances_without(group, check.adjustment, check.iteration.estimated(), check.stochastic, options);
+            tested.of_all
+                ? variances_without(group, with_active(check.adjustment, but_gross, check.told),
+                                    check.iteration.estimated(), check.told, options)
+                : variances_without(group, check.adjustment, check.iteration.estimated(), check.stochastic, options);
+        const StochasticModel& with = tested.of_all ? check.told : check.stochastic;
+        constexpr double k_left = 0.1;
         return std::ranges::all_of(check.refuted, [&](const RefutedRepeatability& of) {
-            return !of.larger || !is_refuted_by(of, std::sqrt(variance_of(without, of.row)));
+            const auto beyond = [&](const StochasticModel& variances) {
+                return variance_of(variances, of.row) - of.given * of.given;
+            };
+            return !of.larger || !is_refuted_by(of, std::sqrt(variance_of(without, of.row))) ||
+                   beyond(without) < k_left * beyond(with);
         });
     } catch (const gum::NoResultError&) {
         return true;
@@ -1342,22 +1466,26 @@ Adjusted adjust_and_test(const RotaryTableMeasurement& measurement, StartSearch&
             if (is_concentrated(measurement, active) && active != but_gross) {
                 groups = groups_with_all(at, but_gross, of.estimated(), weights, options, group_options);
             }
+            const bool of_all = groups.has_value();
             if (!groups) {
                 groups = groups_of(at, *of.normal, of.covariance, of.estimated(), weights, options, group_options);
             }
-            return groups;
+            return TestedGroups{std::move(*groups), of_all};
         };
         // A repeatability that is given too small makes groups of distances suspicious, and the reversal seem to depend on
         // the angle: both are judged at what the distances give. What is suspicious then makes the visits scatter, perhaps.
         if (refuted && refuted->larger()) {
-            std::optional<GroupTests> as_given = groups_at(adjustment, iteration, stochastic);
+            TestedGroups as_given = groups_at(adjustment, iteration, stochastic);
             // A change that explains the scatter is hidden by variances that hold it.
-            const bool is_change = !as_given->tests.empty() && !as_given->tests.front().errors.empty();
-            if (!(is_change && is_explained_by(*as_given, *refuted, options))) {
-                solution.groups = groups_at(refuted->adjustment, refuted->iteration, refuted->stochastic);
+            const bool is_change = !as_given.groups.tests.empty() && !as_given.groups.tests.front().errors.empty();
+            bool is_explained = is_change && is_explained_by(as_given, *refuted, but_gross, options);
+            if (!is_explained) {
+                TestedGroups at_estimates = groups_at(refuted->adjustment, refuted->iteration, refuted->stochastic);
+                is_explained = is_explained_by(at_estimates, *refuted, but_gross, options);
+                solution.groups = std::move(at_estimates.groups);
             }
-            if (!solution.groups || is_explained_by(*solution.groups, *refuted, options)) {
-                solution.groups = std::move(as_given);
+            if (is_explained) {
+                solution.groups = std::move(as_given.groups);
                 refuted.reset();
             } else if (adjustment.reversal_by_angle() && options.fisher_upper_tail) {
                 solution.reversal_tests =
@@ -1366,7 +1494,7 @@ Adjusted adjust_and_test(const RotaryTableMeasurement& measurement, StartSearch&
             }
         }
         if (!solution.groups) {
-            solution.groups = groups_at(adjustment, iteration, stochastic);
+            solution.groups = groups_at(adjustment, iteration, stochastic).groups;
         }
     }
 
@@ -1444,6 +1572,7 @@ Adjusted adjust_and_test(const RotaryTableMeasurement& measurement, StartSearch&
                k_harm;
     };
     std::ranges::move(geometry_notes(measurement, positions, harms), std::back_inserter(solution.notes));
+    std::ranges::move(stated_position_notes(measurement, positions), std::back_inserter(solution.notes));
     if (const auto inclined = inclination_note(measurement.axis, rigid_motion(solution.datum.set_up))) {
         solution.notes.push_back(*inclined);
     }

@@ -32,6 +32,31 @@ void require_layout(const RotaryTableMeasurement& measurement) {
     }
 }
 
+/// One flag a pass: it visits one angle alone, and another pass of its station several, so that it closes a run, or checks it.
+std::vector<bool> closing_passes(const RotaryTableMeasurement& measurement) {
+    std::map<std::size_t, std::size_t> first_angle;
+    std::vector<bool> has_several(measurement.passes.size(), false);  // angles
+    std::vector<bool> has_run(measurement.stations.size(), false);
+    for (const LengthObservation& length : measurement.lengths) {
+        if (first_angle.try_emplace(length.pass, length.angle).first->second != length.angle) {
+            has_several[length.pass] = true;
+            has_run[length.station] = true;
+        }
+    }
+    std::vector<bool> closing(measurement.passes.size(), false);
+    for (const LengthObservation& length : measurement.lengths) {
+        closing[length.pass] = !has_several[length.pass] && has_run[length.station];
+    }
+    return closing;
+}
+
+/// The angle of a full turn from home on that is nearest to an angle of the measurement.
+std::size_t nearest_of_turn(const RotaryTableMeasurement& measurement, std::size_t angle, std::size_t count) {
+    const double turns = (measurement.angles[angle] - measurement.angles[measurement.home]) / (2.0 * std::numbers::pi);
+    const double steps = std::round((turns - std::floor(turns)) * static_cast<double>(count));
+    return static_cast<std::size_t>(steps) % count;
+}
+
 }  // namespace
 
 double ideal_distance(const RotaryTableMeasurement& measurement, const Eigen::Matrix3d& rotation, std::size_t station,
@@ -122,6 +147,7 @@ RotaryTableMeasurement with_full_turn(const RotaryTableMeasurement& measurement,
     for (const LengthObservation& length : measurement.lengths) {
         pattern.try_emplace({length.pass, length.reflector}, length);
     }
+    const std::vector<bool> closes_run = closing_passes(measurement);
     std::vector<std::optional<std::size_t>> used(measurement.dead_paths.size());
     result.dead_paths.clear();
     result.lengths.clear();
@@ -134,6 +160,9 @@ RotaryTableMeasurement with_full_turn(const RotaryTableMeasurement& measurement,
         const bool down = begin->second.approach == Approach::negative;
         for (std::size_t step = 0; step < count; ++step) {
             const std::size_t i = down ? count - 1 - step : step;
+            if (closes_run[begin->first.first] && i != nearest_of_turn(measurement, begin->second.angle, count)) {
+                continue;
+            }
             const Eigen::Matrix3d rotation = nominal_rotation(result, i);
             for (auto entry = begin; entry != end; ++entry) {
                 LengthObservation length = entry->second;

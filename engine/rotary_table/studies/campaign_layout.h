@@ -27,8 +27,8 @@ void lay_out(RotaryTableMeasurement& measurement, bool both_senses, bool dead_pa
 /// The same passes, reflectors and dead paths at `count` angles of a full turn, beginning at the home angle.
 ///
 /// Every reflector of a pass is measured at every angle; distances that were missing are there, and a dead path that
-/// began in mid-turn is left out: its distances belong to the first dead path of their pass and reflector. Lengths are
-/// those of `lay_out`; where a station has no start value they are zero.
+/// began in mid-turn is left out: its distances belong to the first dead path of their pass and reflector. A pass of one angle
+/// beside runs of its station closes a run, or checks it: it visits the nearest angle alone. Lengths are those of `lay_out`; where a station has no start value they are zero.
 /// \param count  at least 1
 [[nodiscard]] RotaryTableMeasurement with_full_turn(const RotaryTableMeasurement& measurement, std::size_t count);
 

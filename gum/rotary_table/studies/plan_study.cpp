@@ -14,6 +14,7 @@
 #include "gum/rotary_table/evaluate_rotary_table.h"
 #include "gum/rotary_table/fixture_budget.h"
 #include "gum/rotary_table/studies/plan_texts.h"
+#include "gum/rotary_table/studies/stated_sight.h"
 #include "gum/rounding.h"
 #include "text/counts.h"
 
@@ -110,61 +111,13 @@ double target_of(const Setting& setting, std::size_t motion) {
 
 namespace {
 
-/// Lines of sight of the job, with directions in the order of the reflectors; nothing where it says nothing of them.
-/// \throws InputError  GC-PLAN-0003 for a reflector inside an obstacle
-std::optional<engine::LineOfSight> sight_of(const Setting& setting) {
-    const SightStatement& stated = setting.request.sight;
-    engine::SightRules rules;
-    rules.obstacles = stated.obstacles;
-    rules.reflector_diameter = stated.reflector_diameter;
-    if (!stated.facing.empty()) {
-        rules.acceptance_angle = stated.acceptance_angle;
-    }
-    if (!rules.any()) {
-        return std::nullopt;
-    }
-    const std::vector<std::string>& reflectors = setting.layout.reflectors;
-    rules.facing.resize(reflectors.size());
-    for (const SightStatement::Facing& facing : stated.facing) {
-        const auto found = std::find(reflectors.begin(), reflectors.end(), facing.reflector);
-        if (found != reflectors.end()) {
-            rules.facing[static_cast<std::size_t>(found - reflectors.begin())] = facing.direction;
-        }
-    }
-    engine::LineOfSight sight(setting.layout, std::move(rules));
-    if (const auto inside = sight.inside()) {
-        throw InputError(Diagnostic{"GC-PLAN-0003", stated.obstacles_where[inside->obstacle],
-                                    "reflector " + reflectors[inside->reflector] + " lies inside " +
-                                        stated.obstacles[inside->obstacle].name + " at " +
-                                        plain(setting.layout.angles_deg[inside->angle]) + "°",
-                                    "what lies inside an obstacle is seen from nowhere",
-                                    "correct the obstacle, or the coordinates", Severity::error});
-    }
-    return sight;
-}
-
 /// Leaves out what no station sees.
-/// \throws InputError  GC-PLAN-0004 for every station that sees nothing
 void leave_out_hidden(Setting& setting) {
     setting.whole = setting.layout;
-    setting.sight = sight_of(setting);
-    if (!setting.sight) {
-        return;
+    setting.sight = sight_of(setting.request.sight, setting.layout);
+    if (setting.sight) {
+        setting.layout = seen_layout(setting.whole, *setting.sight);
     }
-    const std::vector<SightCount> counts = sight_counts(setting.whole, *setting.sight);
-    std::vector<Diagnostic> blind;
-    for (std::size_t j = 0; j < counts.size(); ++j) {
-        if (counts[j].seen() == 0) {
-            blind.push_back({"GC-PLAN-0004", "station " + setting.whole.stations[j],
-                             "sees none of its " + text::count_of(counts[j].distances, "distance"),
-                             "a station measures what it sees past the obstacles of plan.sight",
-                             "move the station, or correct plan.sight", Severity::error});
-        }
-    }
-    if (!blind.empty()) {
-        throw InputError(std::move(blind));
-    }
-    setting.layout = engine::with_distances(setting.whole, engine::seen_distances(setting.whole, *setting.sight));
 }
 
 void note_stations_among_reflectors(Setting& setting) {

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 
 #include "engine/rotary_table/evaluation/rotary_table_evaluation.h"
 #include "engine/rotary_table/studies/campaign_layout.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/units.h"
 #include "gum/rotary_table/evaluate_rotary_table.h"
+#include "gum/rotary_table/studies/stated_sight.h"
 
 namespace gumcert::gum::simulation {
 
@@ -82,8 +84,15 @@ Basis basis_of(const RotaryTableRequest& measured, const SimulationRequest& aske
             layout = engine::with_full_turn(layout, basis.request.angle_counts.front());
         }
         engine::lay_out(layout, plan.both_senses, plan.dead_path_per_reflector);
+        basis.sight = plan.sight;
     }
     return basis;
+}
+
+RotaryTableMeasurement simulated_layout(const Basis& basis, std::size_t angles) {
+    RotaryTableMeasurement whole = angles == 0 ? basis.layout : engine::with_full_turn(basis.layout, angles);
+    const std::optional<engine::LineOfSight> sight = plan::sight_of(basis.sight, whole);
+    return sight ? plan::seen_layout(whole, *sight) : whole;
 }
 
 }  // namespace gumcert::gum::simulation

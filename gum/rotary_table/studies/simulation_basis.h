@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 #include "engine/rotary_table/rotary_table_measurement.h"
@@ -15,6 +16,8 @@ struct Basis {
     engine::RotaryTableMeasurement layout;  ///< with lengths, and a position of every station
     SimulationRequest request;
     engine::TableRepeatability table;
+    SightStatement
+        sight;  ///< of a layout that is not measured; the distances of a measured one are those that were seen
     std::string table_from, stations_from;  ///< for the document
 };
 
@@ -25,5 +28,10 @@ struct Basis {
 /// \throws NoResultError  of evaluate_jointly()
 [[nodiscard]] Basis basis_of(const RotaryTableRequest& measured, const SimulationRequest& asked,
                              const PlanRequest& plan, const Progress& progress);
+
+/// What is simulated: the layout of the basis, or its full turn, without the distances that no beam reaches.
+/// \param angles  of a full turn; 0: those of the basis
+/// \throws InputError  of plan::sight_of() and plan::seen_layout()
+[[nodiscard]] engine::RotaryTableMeasurement simulated_layout(const Basis& basis, std::size_t angles);
 
 }  // namespace gumcert::gum::simulation

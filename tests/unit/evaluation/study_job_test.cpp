@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <string>
 
+#include "evaluation/simulate_job.h"
 #include "gum/quantity/diagnostic.h"
 
 namespace gumcert::evaluation {
@@ -26,6 +28,23 @@ TEST(StudyJob, KnowsItsFilesAndHoldsWhatWasRead) {
 
 TEST(StudyJob, RefusesWhatItsReaderRefuses) {
     EXPECT_THROW(StudyJob("nothing.json"), gum::StorageError);
+}
+
+TEST(StudyJob, SaysInTheDocumentOfASimulationWhatItsReaderWarnsOf) {
+    const StudyJob study(fs::path(GUMCERT_SOURCE_DIR) / "examples" / "rotary_table" / "plan.json",
+                         jobs::JobUse::simulate);
+    jobs::RotaryTableJob job = study.job();
+    job.simulation.emplace().angle_counts = {8};
+    job.warnings.push_back(
+        {"GC-WARN-0006", "job.json#/plan/senses", "senses is not used", "", "", gum::Severity::warning});
+    const reports::StudyDocument document = simulate_job(job, study.name(), 2, 1, 1, gum::Progress{});
+    std::string paragraphs;
+    for (const reports::StudySection& section : document.sections) {
+        for (const std::string& paragraph : section.paragraphs) {
+            paragraphs += paragraph + "\n";
+        }
+    }
+    EXPECT_THAT(paragraphs, testing::HasSubstr("senses is not used"));
 }
 
 }  // namespace

@@ -379,6 +379,26 @@ TEST(GroupTests, StateTheScatterOfDriftsAndDivideTheLevel) {
     EXPECT_GT(shares, 0.89);
 }
 
+// Linearised at temperatures that hundreds of ppm had moved, 270 ppm were told as 363 ppm, and reflectors beside them.
+TEST(GroupTests, TellTheSizeOfAFixtureAndNothingElse) {
+    for (const double larger : {270e-6, -60e-6}) {
+        RotaryTableMeasurement measurement = campaign(36).measurement;
+        measurement.expansion = 11.5e-6;
+        measurement.u_expansion = 0.5e-6;
+        measurement.temperature_difference.setConstant(0.5);
+        measurement.u_temperature.setConstant(0.03);
+        measurement.table_repeatability = {RepeatabilityMode::given, 0.15e-6, 1.5e-6, 0.5e-6};
+        measurement.estimate_length_noise = false;
+        measurement.outliers.test = OutlierTest::none;
+        measurement.fixture /= (1.0 + larger) * (1.0 + 0.5 * measurement.expansion);
+        const GroupTests groups = tests_of(measurement);
+        const GroupTest& first = groups.tests.front();
+        EXPECT_EQ(first.kind, GroupKind::fixture_scale) << told(groups);
+        EXPECT_NEAR(-first.estimate * 1e6, larger * 1e6, 3.0) << told(groups);  // some times its u
+        EXPECT_EQ(std::ranges::count_if(groups.tests, &GroupTest::suspicious), 1) << told(groups);
+    }
+}
+
 TEST(GroupTests, FindADisplacedReflector) {
     for (const double error : {5e-6, 50e-6}) {
         RotaryTableMeasurement measurement = campaign(34).measurement;

@@ -15,6 +15,7 @@
 #include "jobs/budget/budget_job.h"
 #include "jobs/input_codes.h"
 #include "tests/support/campaign.h"
+#include "text/numbers.h"
 
 namespace gumcert::jobs {
 namespace {
@@ -32,6 +33,7 @@ using test::texts;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 
 /// One kind of bad input: how to spoil the small campaign, and the one refusal that must follow.
 struct BadInput {
@@ -434,6 +436,17 @@ const std::vector<BadInput>& bad_inputs() {
          },
          k_angles_in_radians, "lengths.csv:2:13",
          "8 angles from 0 to 5.497787 are multiples of half a degree when they are taken as radians"},
+        {"angles_in_rounded_radians",
+         [](Files& files) {
+             change_angles(files, [](int angle) { return text::fixed(angle * std::numbers::pi / 180.0, 3); });
+         },
+         k_angles_in_radians, "lengths.csv:2:13", "8 angles from 0 to 5.498 are multiples of half a degree"},
+        {"angles_in_radians_to_two_digits",
+         [](Files& files) {
+             change_angles(files, [](int angle) { return text::fixed(angle * std::numbers::pi / 180.0, 2); });
+         },
+         k_angles_in_radians, "lengths.csv:2:13",
+         "8 angles from 0 to 5.5 are multiples of 5° when they are taken as radians"},
         {"angle_beyond_ten_turns",
          with_line("lengths.csv", 3, row_text("P1", "R2", "P1+", "+", "3600.5", "500.12", "P1")), k_csv_out_of_range,
          "lengths.csv:3:13", "3600.5 °"},
@@ -1550,6 +1563,41 @@ TEST(RotaryTableJob, WarnsOfKeysThatAreNotUsed) {
     Files files = small_campaign();
     replace(files.at("job.json"), "\"environment\": \"environment.csv\"", "\"temperature_distribution\": \"uniform\"");
     EXPECT_THAT(texts(read(files).warnings), HasSubstr("temperature_distribution is not used"));
+}
+
+// With a lengths file keys of a plan may be without use: which ones depends on what is made of the job.
+TEST(RotaryTableJob, WarnsOfKeysOfAPlanThatMeasuredLengthsLeaveWithoutUse) {
+    const auto warned = [](const char* plan, JobUse use) {
+        Files files = small_campaign();
+        with_key(std::string("\"plan\": ") + plan)(files);
+        return texts(read(files, use).warnings);
+    };
+    const char* without_angles = R"({"senses": "both", "dead_paths": "reflector"})";
+    for (const char* key : {"senses", "dead_paths"}) {
+        const std::string unused = std::string("job.json#/plan/") + key;
+        for (const JobUse use : {JobUse::plan, JobUse::simulate}) {
+            EXPECT_THAT(warned(without_angles, use), HasSubstr(unused));
+        }
+        EXPECT_THAT(
+            warned(R"({"angles_deg": [0, 90, 180], "senses": "both", "dead_paths": "reflector"})", JobUse::plan),
+            Not(HasSubstr(unused)));
+    }
+    EXPECT_THAT(warned(R"({"angles_deg": [0, 90, 180]})", JobUse::simulate), HasSubstr("angles_deg is not used"));
+    // A plan leaves out what is hidden, of the distances of a file, too.
+    const char* with_sight = R"({"sight": {"reflector_diameter_mm": 12.7}})";
+    EXPECT_THAT(warned(with_sight, JobUse::simulate), HasSubstr("sight is not used"));
+    EXPECT_THAT(warned(with_sight, JobUse::plan), Not(HasSubstr("sight is not used")));
+    EXPECT_EQ(warned(without_angles, JobUse::evaluate), "") << "a plan beside what is evaluated";
+}
+
+TEST(RotaryTableJob, TakesAReversalByAngleOfAPlanInBothSenses) {
+    Files files = small_layout();
+    with_key(R"("reversal": "by_angle")")(files);
+    const auto found = refusals(files, JobUse::plan);
+    ASSERT_EQ(found.size(), 1U) << texts(found);
+    EXPECT_EQ(found[0].what, "one sense of approach is planned");
+    replace(files.at("job.json"), "\"count\": 12}", "\"count\": 12}, \"senses\": \"both\"");
+    EXPECT_NO_THROW((void)read(files, JobUse::plan));
 }
 
 TEST(RotaryTableJob, WarnsOfAPlanBelowHalfATurn) {

@@ -160,6 +160,54 @@ TEST(RepeatabilityCheck, ABlunderIsNotTakenForTheTable) {
     }
 }
 
+// The size of a blunder is an estimate: a hundredth of a large one scatters more than the table, which was told for it. And where
+// whole visits were left out as outlying, the group was taken away from other visits than its own.
+TEST(RepeatabilityCheck, ALargeBlunderLeavesTheTableInPeace) {
+    for (const bool snooping : {false, true}) {
+        for (const double error : {8e-6, 25e-6}) {
+            CampaignPlan plan = repeating(3);
+            plan.runs = 1;
+            Campaign campaign = synthetic::simulate(plan);
+            if (snooping) {
+                campaign.measurement.outliers = {OutlierTest::data_snooping, 1e-4, OutlierAction::remove};
+            }
+            for (LengthObservation& length : campaign.measurement.lengths) {
+                if (length.station == 1) {  // it drifts
+                    length.length += error * (static_cast<double>(length.angle) / 17.0 - 0.5);
+                }
+            }
+            const RotaryTableSolution solution = evaluated_as_given(campaign.measurement, 1.0, 1.0, 1.0);
+            EXPECT_FALSE(notes_of(solution, "GC-GROUP-0001").empty()) << error;
+            EXPECT_TRUE(notes_of(solution, k_repeatability_too_small).empty()) << error << ", " << snooping;
+        }
+    }
+}
+
+// Of few stations a large interruption moves most visits: their robust scale hid it, and "successive visits deviate alike" was told.
+TEST(RepeatabilityCheck, AnInterruptedBeamIsToldAtGivenWeights) {
+    constexpr double k_interruption = 20e-6;
+    CampaignPlan plan = repeating(5);
+    plan.runs = 1;
+    plan.angles_deg = synthetic::full_turn(24);
+    plan.stations = CampaignPlan{}.stations;
+    plan.stations.resize(5);
+    plan.table_linear = 0.5 * k_linear;
+    Campaign campaign = synthetic::simulate(plan);
+    campaign.measurement.outliers = {OutlierTest::data_snooping, 1e-4, OutlierAction::remove};
+    for (LengthObservation& length : campaign.measurement.lengths) {
+        if (length.station == 2 && length.angle > 12) {
+            length.length += k_interruption;
+        }
+    }
+    const RotaryTableSolution solution = evaluated_as_given(campaign.measurement, 0.5, 1.0, 1.0);
+    ASSERT_TRUE(solution.groups);
+    const GroupTest& first = solution.groups->tests.front();
+    EXPECT_TRUE(first.suspicious);
+    EXPECT_EQ(first.kind, GroupKind::dead_path_change);
+    EXPECT_NEAR(first.estimate / k_interruption, 1.0, 0.1);
+    EXPECT_TRUE(notes_of(solution, k_repeatability_too_small).empty());
+}
+
 // A step from what is given may come to many times of it by chance where the distances hardly determine a component.
 TEST(RepeatabilityCheck, AComponentThatIsHardlyDeterminedIsRefutedByNothing) {
     VarianceComponentStep step;

@@ -113,6 +113,33 @@ TEST(WithFullTurn, KeepsPassesReflectorsAndFirstDeadPaths) {
     EXPECT_EQ(turn.dead_paths.size(), 7U);
 }
 
+// The first angle measured again at the end of a run was a run of its own: twice the distances.
+TEST(WithFullTurn, KeepsAPassThatClosesARunOneVisit) {
+    RotaryTableMeasurement measurement = bare_layout();
+    lay_out(measurement, false, false);
+    const std::size_t of_runs = measurement.lengths.size();
+    for (const std::size_t angle : {0U, 2U}) {  // home, and 240 degrees from it
+        measurement.passes.push_back("P1 again " + std::to_string(angle));
+        for (std::size_t i = 0; i < of_runs; ++i) {
+            LengthObservation length = measurement.lengths[i];
+            if (length.station == 0 && length.angle == angle) {
+                length.pass = measurement.passes.size() - 1;
+                measurement.lengths.push_back(length);
+            }
+        }
+    }
+    const RotaryTableMeasurement turn = with_full_turn(measurement, 12);
+    EXPECT_EQ(turn.lengths.size(), 12U * 6U * 6U + 2U * 6U);
+    for (const LengthObservation& length : turn.lengths) {
+        if (length.pass >= 6) {
+            EXPECT_EQ(length.angle, length.pass == 6 ? 0U : 8U);
+        }
+    }
+    // Where a station has no run at all, every pass is one.
+    std::erase_if(measurement.lengths, [](const LengthObservation& l) { return l.station == 0 && l.pass < 6; });
+    EXPECT_EQ(with_full_turn(measurement, 12).lengths.size(), 12U * 7U * 6U);
+}
+
 TEST(IdealDistance, StretchesTheFixtureBeforeItTurns) {
     RotaryTableMeasurement measurement = bare_layout();
     measurement.expansion = 1e-3;
