@@ -53,7 +53,7 @@ Sentence range_in_words(const Interval& interval, const std::string& unit) {
 
 std::string claimed_in_words(const StatedNumber& number, const std::string& unit) {
     return number.text.empty() ? in_words(number.value, unit)
-                               : text_of_claim(number) + (unit.empty() ? "" : " " + unit);
+                               : text_of_claim(number) + (unit.empty() ? "" : " " + printed_unit(unit));
 }
 
 const Correction k_trust_rows = [](AuditedBudget& budget) {

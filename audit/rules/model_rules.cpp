@@ -85,11 +85,13 @@ void unit_of_sensitivity(const AuditSubject& subject, FindingCollector& findings
             if (c->dimension() == expected) {
                 return;
             }
-            AuditFinding finding = finding_at(
-                at, "sensitivity coefficient",
-                say("the unit {unit} does not turn {from} into {to}", at.is.sensitivity_unit, at.is.unit, at.of.unit));
+            AuditFinding finding =
+                finding_at(at, "sensitivity coefficient",
+                           say("the unit {unit} does not turn {from} into {to}", at.is.sensitivity_unit,
+                               printed_unit(at.is.unit), printed_unit(at.of.unit)));
             finding.evidence = {equals("c", in_words(at.is.used_sensitivity, at.is.sensitivity_unit))};
-            finding.expected = say("the dimension of {result} per {quantity}", at.of.unit, at.is.unit);
+            finding.expected =
+                say("the dimension of {result} per {quantity}", printed_unit(at.of.unit), printed_unit(at.is.unit));
             finding.actual = at.is.sensitivity_unit;
             findings.add(std::move(finding));
             return;
@@ -114,11 +116,12 @@ void unit_of_sensitivity(const AuditSubject& subject, FindingCollector& findings
                 has_coefficient ? say("u in {unit} is added to a budget in {other} with a sensitivity coefficient of "
                                       "1, as if it were "
                                       "of that unit",
-                                      at.is.unit, at.of.unit)
+                                      printed_unit(at.is.unit), printed_unit(at.of.unit))
                                 : say("u in {unit} is added to a budget in {other} without a sensitivity coefficient",
-                                      at.is.unit, at.of.unit));
+                                      printed_unit(at.is.unit), printed_unit(at.of.unit)));
             finding.evidence = {equals("u", in_words(at.is.used_u, at.is.unit))};
-            finding.expected = say("a coefficient in {result} per {quantity}", at.of.unit, at.is.unit);
+            finding.expected =
+                say("a coefficient in {result} per {quantity}", printed_unit(at.of.unit), printed_unit(at.is.unit));
             finding.actual = has_coefficient ? Sentence("c = 1") : say("none");
             if (has_coefficient) {
                 findings.add(std::move(finding), FindingSeverity::major);
@@ -131,11 +134,12 @@ void unit_of_sensitivity(const AuditSubject& subject, FindingCollector& findings
         if (is_about(factor, scale, 1e-9)) {
             return;
         }
-        AuditFinding finding = finding_at(
-            at, "sensitivity coefficient",
-            say("u in {unit} is added to a budget in {other} as if both were one unit", at.is.unit, at.of.unit));
+        AuditFinding finding = finding_at(at, "sensitivity coefficient",
+                                          say("u in {unit} is added to a budget in {other} as if both were one unit",
+                                              printed_unit(at.is.unit), printed_unit(at.of.unit)));
         finding.evidence = {equals("u", in_words(at.is.used_u, at.is.unit))};
-        finding.expected = equals("c", say("{factor:number} per {unit}", in_words(factor, at.of.unit), at.is.unit));
+        finding.expected =
+            equals("c", say("{factor:number} per {unit}", in_words(factor, at.of.unit), printed_unit(at.is.unit)));
         finding.actual = "c = 1";
         finding.correct = set_sensitivity(at.row, factor);
         findings.add(std::move(finding));

@@ -8,6 +8,7 @@
 
 #include "audit/row_facts.h"
 #include "audit/row_meaning.h"
+#include "gum/quantity/unit.h"
 #include "text/numbers.h"
 #include "text/small_letters.h"
 
@@ -54,7 +55,13 @@ AuditFinding finding_of(const AuditSubject& subject, std::size_t budget, Sentenc
 
 std::string in_words(double number, const std::string& unit) {
     const std::string digits = std::isfinite(number) ? text::significant(number, 4) : "infinite";
-    return unit.empty() || unit == "1" ? digits : digits + " " + unit;
+    const std::string written = gum::unit_for_people(unit);
+    return written.empty() ? digits : digits + " " + written;
+}
+
+std::string printed_unit(const std::string& unit) {
+    const std::string written = gum::unit_for_people(unit);
+    return written.empty() ? unit : written;
 }
 
 Correction set_u(std::size_t row, double u) {

@@ -34,6 +34,8 @@ void for_each_row(const AuditSubject& subject, const std::function<void(const Ro
 
 /// "0.231 µm": four significant digits, with the unit where there is one.
 [[nodiscard]] std::string in_words(double number, const std::string& unit = "");
+/// A unit as people write it, "µm" of "um"; "1" stays.
+[[nodiscard]] std::string printed_unit(const std::string& unit);
 
 // One error of a u that several rules see is corrected once: what multiplies u by a factor by which another correction has
 // multiplied it already, within 1 %, changes nothing; where the other has set u, what the digits of the former u leave open

@@ -416,7 +416,7 @@ TEST(InputRules, U23SaysWhatTheOtherRowsGive) {
     one.stated = test::printed("0.3");
     const std::vector<AuditFinding> findings = findings_of("U23", subject_of(one));
     ASSERT_EQ(findings.size(), 1U);
-    EXPECT_EQ(findings[0].evidence.back(), "without this row U = 0.02 um");
+    EXPECT_EQ(findings[0].evidence.back(), "without this row U = 0.02 µm");
 }
 
 TEST(InputRules, U24AndU10AskTheColumnsBehindARoundedU) {

@@ -234,7 +234,7 @@ TEST(ModelRules, S10AndS13AskForCorrelation) {
     AuditedBudget budget = budget_of({first, second});
     const std::vector<AuditFinding> findings = findings_of("S10", subject_of(budget));
     ASSERT_EQ(findings.size(), 1U);
-    EXPECT_EQ(findings[0].evidence[1], "with r = 1: 0.2 um");
+    EXPECT_EQ(findings[0].evidence[1], "with r = 1: 0.2 µm");
     EXPECT_EQ(findings[0].severity, FindingSeverity::major);
     budget.correlations = {{.first = 1, .second = 0, .r = 0.0}};
     EXPECT_TRUE(findings_of("S10", subject_of(budget)).empty());

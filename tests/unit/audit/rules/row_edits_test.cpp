@@ -109,8 +109,10 @@ TEST(RowEdits, SayWhereAndWhat) {
     EXPECT_EQ(rows, 1U);
     EXPECT_EQ(finding_of(subject, 0, "wrong").where, "table 1");
     EXPECT_EQ(name_of_row(subject.budgets[0], 0), "row of a (a)");
-    EXPECT_EQ(in_words(0.23094, "um"), "0.2309 um");
+    EXPECT_EQ(in_words(0.23094, "um"), "0.2309 µm");
     EXPECT_EQ(in_words(5.0, "1"), "5");
+    EXPECT_EQ(printed_unit("um"), "µm");
+    EXPECT_EQ(printed_unit("1"), "1");
     EXPECT_EQ(in_words(test::k_infinite), "infinite");
 }
 

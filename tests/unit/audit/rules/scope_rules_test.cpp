@@ -26,7 +26,7 @@ TEST(ScopeRules, X01_raises_a_U_that_is_below_the_capability) {
     const auto found = std::find_if(report.findings.begin(), report.findings.end(),
                                     [](const AuditFinding& finding) { return finding.rule == "X01"; });
     ASSERT_NE(found, report.findings.end());
-    EXPECT_EQ(found->what, "U = 0.31 um is below the capability 0.4 um");
+    EXPECT_EQ(found->what, "U = 0.31 µm is below the capability 0.4 µm");
     ASSERT_TRUE(found->effect);
     EXPECT_EQ(found->effect->alone.U, 0.40);
     EXPECT_EQ(found->severity, FindingSeverity::critical);  // U understated by more than 10 %

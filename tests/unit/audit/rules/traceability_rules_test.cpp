@@ -46,7 +46,7 @@ TEST(TraceabilityRules, T07_compares_with_the_standard) {
     budget.rows[0].origin_value = 0.8;
     budget.rows[0].certificate_k = 2.0;
     EXPECT_THAT(found_by(traceability_rules(), "T07", subject_with({budget})),
-                HasSubstr("smaller than what the standard alone contributes, 0.4 um"));
+                HasSubstr("smaller than what the standard alone contributes, 0.4 µm"));
     AuditedBudget mean = budget;
     mean.rows[0].used_sensitivity = 0.25;
     EXPECT_EQ(found_by(traceability_rules(), "T07", subject_with({mean})), "");
