@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <span>
+#include <vector>
 
 #include "gum/comparison/consensus_spread.h"
 #include "gum/comparison/refusal_place.h"
@@ -73,6 +75,23 @@ void describe(const ComparisonScheme& scheme, const LaboratoryData& data, const 
     result.ambiguous_sources.insert(assigned.ambiguous_sources.begin(), assigned.ambiguous_sources.end());
 }
 
+/// The scale of algorithm A. Where it has none no other method of the assigned value helps: σ_pt is stated, then.
+double robust_sigma_pt(std::span<const double> results) {
+    try {
+        return algorithm_a(results).scale;
+    } catch (const InputError& refused) {
+        std::vector<Diagnostic> problems = refused.diagnostics();
+        for (Diagnostic& problem : problems) {
+            problem.action =
+                problem.code == "GC-GUM-0102"
+                    ? "Take a value and a limit that need no such scale (sigma_pt or delta_E), or give the "
+                      "results with more digits."
+                    : problem.action;
+        }
+        throw InputError(problems);
+    }
+}
+
 std::optional<double> sigma_pt_of(const LaboratoryData& data, double assigned_value) {
     if (!data.item->sigma_pt) {
         return std::nullopt;
@@ -98,7 +117,7 @@ std::optional<double> sigma_pt_of(const LaboratoryData& data, double assigned_va
         case SigmaPtMethod::precision:
             return sigma_pt_of_precision(request.reproducibility, request.repeatability, request.replicates);
         case SigmaPtMethod::robust:
-            return algorithm_a({x.data(), static_cast<std::size_t>(x.size())}).scale;
+            return robust_sigma_pt({x.data(), static_cast<std::size_t>(x.size())});
         case SigmaPtMethod::standard_deviation:
             break;
     }

@@ -41,11 +41,21 @@ constexpr double k_vanished = 1e-12;  // of the scale that algorithm A began wit
     refuse_scale(method, "all " + text::count_of(results, "result") + " are equal: the scale is 0");
 }
 
-[[noreturn]] void refuse_no_scale_of_algorithm_a(std::size_t results) {
+/// Whether the Q method with Hampel's estimator is an advice: it gives a value of these results.
+bool has_q_hampel(std::span<const double> results) {
+    try {
+        (void)supported_q_hampel(results);
+        return true;
+    } catch (const DiagnosedError&) {
+        return false;
+    }
+}
+
+[[noreturn]] void refuse_no_scale_of_algorithm_a(std::span<const double> results) {
     refuse_scale("algorithm A",
-                 "more than half of " + std::to_string(results) +
+                 "more than half of " + std::to_string(results.size()) +
                      " results are equal, and the others too few or too far away to make a scale",
-                 "use the Q method with Hampel's estimator, ");
+                 has_q_hampel(results) ? "use the Q method with Hampel's estimator, " : "");
 }
 
 /// In ascending order, so that no sum depends on the order of the results.
@@ -567,7 +577,7 @@ RobustEstimate algorithm_a(std::span<const double> results, AlgorithmAConstants 
             return estimate(centre + x, s, ascending.size());
         }
         if (half_are_equal && s < k_vanished * start) {  // it would go on shrinking for ever
-            refuse_no_scale_of_algorithm_a(ascending.size());
+            refuse_no_scale_of_algorithm_a(ascending);
         }
     }
     throw NoResultError(Diagnostic{.code = "GC-GUM-0103",

@@ -1,14 +1,17 @@
 #include "gum/comparison/scored_result.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <limits>
+#include <string>
 #include <utility>
 
 #include "gum/argument_check.h"
 #include "gum/comparison/laboratory_covariance.h"
 #include "gum/comparison/scores.h"
 #include "gum/coverage.h"
+#include "gum/rounding.h"
 #include "text/numbers.h"
 
 namespace gumcert::gum {
@@ -67,6 +70,19 @@ double rounding_of_difference(const ScoredResult& point) {
            k_of_u * point.uncertainty->u;
 }
 
+/// A number without the digits that rounding alone has made: 0.3 of 0.30000000000000426.
+double without_rounding(double number, double rounding) {
+    if (!(rounding > 0.0) || !(std::abs(number) > rounding)) {
+        return number;
+    }
+    constexpr double k_most = 300.0;
+    const double decimals = std::clamp(-std::ceil(std::log10(rounding)), -k_most, k_most);
+    const std::string digits = round_to_quantum(number, static_cast<int>(decimals));
+    double rounded = number;
+    std::from_chars(digits.data(), digits.data() + digits.size(), rounded);
+    return rounded;
+}
+
 /// A difference that has no uncertainty and is not 0: the result and the assigned value are stated to be one quantity
 /// with all of their uncertainty in common, and they differ. No score says so, and none of the two can stand.
 void require_explained_difference(const Scene& scene, const ScoredResult& point) {
@@ -77,9 +93,10 @@ void require_explained_difference(const Scene& scene, const ScoredResult& point)
         refuse("GC-GUM-0031",
                (scene.data.where.empty() ? "result of " : scene.data.where + ", result of ") +
                    scene.scheme.participants[point.participant].id,
-               "D = " + text::shortest(point.difference) + " beside an uncertainty of D of 0, from u = " +
-                   text::shortest(point.uncertainty->u) + " and u(X) = " + text::shortest(*scene.item.u) +
-                   " with correlation " + text::shortest(*point.correlation),
+               "D = " + text::shortest(without_rounding(point.difference, rounding_of_difference(point))) +
+                   " beside an uncertainty of D of 0, from u = " + text::shortest(point.uncertainty->u) +
+                   " and u(X) = " + text::shortest(*scene.item.u) + " with correlation " +
+                   text::shortest(*point.correlation),
                "a score divides by it, so it must be greater than 0",
                "State a smaller correlation: with this one both values have all of their uncertainty in common.");
     }

@@ -192,6 +192,18 @@ TEST(ItemResult, StandardDeviationsForAssessment) {
     SigmaPtRequest& sigma = stated.scheme.items[0].sigma_pt.emplace();
     sigma.method = SigmaPtMethod::robust;
     EXPECT_NEAR(*result_of(stated).sigma_pt, 5.29458866760596, 1e-7);
+    // The scale of algorithm A that σ_pt asks for is none of the Q method, whatever the assigned value is.
+    test::StatedComparison equal = test::comparison_of({10.0, 10.0, 10.0, 10.0, 10.0, 10.0, 10.5, 9.0}, {});
+    equal.scheme.items[0].assigned_value.method = AssignedValueMethod::q_hampel;
+    equal.scheme.items[0].sigma_pt.emplace().method = SigmaPtMethod::robust;
+    try {
+        (void)result_of(equal);
+        ADD_FAILURE();
+    } catch (const InputError& refused) {
+        EXPECT_EQ(refused.diagnostics().front().code, "GC-GUM-0102");
+        EXPECT_EQ(refused.diagnostics().front().action.find("Q method"), std::string::npos);
+        EXPECT_NE(refused.diagnostics().front().action.find("need no such scale"), std::string::npos);
+    }
     sigma = {.method = SigmaPtMethod::percent_of_assigned, .value = 10.0};
     EXPECT_NEAR(*result_of(stated).sigma_pt, 2.68125, 1e-6);
 }

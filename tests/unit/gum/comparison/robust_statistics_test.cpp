@@ -533,6 +533,27 @@ TEST(RobustStatistics, EqualResultsHaveNoScale) {
             "needed — Take a value and a limit that need no such scale (sigma_pt or delta_E), or give the results "
             "with more digits.");
     }
+    // Nor where it would be refused: the results that are not equal are two groups far away from each other.
+    Results groups;
+    for (int i = 0; i < 12; ++i) {
+        groups.push_back(i < 7 ? 10.0 : 1000.0 + i);
+    }
+    for (const Results& results : {most_equal, groups}) {
+        std::string refusal;
+        try {
+            (void)algorithm_a(results);
+            continue;
+        } catch (const InputError& refused) {
+            refusal = refused.diagnostics().front().action;
+        }
+        bool has_q = true;
+        try {
+            (void)supported_q_hampel(results);
+        } catch (const DiagnosedError&) {
+            has_q = false;
+        }
+        EXPECT_EQ(refusal.find("Q method") != std::string::npos, has_q);
+    }
     // The Q method has a scale as long as not all results are equal.
     const RobustEstimate q = q_hampel(most_equal);
     EXPECT_GT(q.scale, 0.0);

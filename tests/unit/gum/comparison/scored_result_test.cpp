@@ -171,6 +171,10 @@ TEST(ScoredResults, ADifferenceWithoutUncertaintyIsNotPassedOver) {
                 ADD_FAILURE() << value;
             } catch (const InputError& refused) {
                 EXPECT_EQ(refused.diagnostics().front().code, "GC-GUM-0031");
+                if (value == 10.25 || value == 9.9999) {  // 9.9999 - 10 is -9.9999999999766942E-5
+                    const std::string D = value == 10.25 ? "D = 0.25 " : "D = -1e-04 ";
+                    EXPECT_EQ(refused.diagnostics().front().what.substr(0, D.size()), D);
+                }
                 EXPECT_NE(refused.diagnostics().front().where.find("result of L2"), std::string::npos);
             }
         } else {
