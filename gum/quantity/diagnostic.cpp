@@ -1,6 +1,27 @@
 #include "gum/quantity/diagnostic.h"
 
+#include <string_view>
+#include <utility>
+
 namespace gumcert::gum {
+
+namespace {
+
+/// "p = <1E-300" as "p < 1E-300": a bound takes the place of the equals sign.
+std::string with_bounds(std::string text) {
+    for (const std::string_view sign : {"<", ">"}) {
+        const std::string equal_to = "= " + std::string(sign);
+        for (std::size_t at = text.find(equal_to); at != std::string::npos; at = text.find(equal_to, at + 1)) {
+            const std::size_t digit = at + equal_to.size();
+            if (digit < text.size() && text[digit] >= '0' && text[digit] <= '9') {
+                text.replace(at, equal_to.size(), std::string(sign) + " ");
+            }
+        }
+    }
+    return text;
+}
+
+}  // namespace
 
 std::string message(const Diagnostic& diagnostic) {
     std::string text;
@@ -13,7 +34,7 @@ std::string message(const Diagnostic& diagnostic) {
         }
         text += *part;
     }
-    return text;
+    return with_bounds(std::move(text));
 }
 
 namespace {

@@ -14,6 +14,7 @@
 #include "reports/record/comparison_scores.h"
 #include "reports/record/record_kinds.h"
 #include "reports/view/comparison_sections.h"
+#include "reports/wording.h"
 #include "text/degrees_of_freedom.h"
 #include "text/lists.h"
 
@@ -130,6 +131,13 @@ std::string signal_in_words(const ComparisonPoint& point, const std::string& sco
     return point.signal + " (" + names + ")";
 }
 
+/// "= 0.03", and "< 1E-300" of a p below what can be stated.
+std::string equal_to(const std::string& printed) {
+    std::string text = "= ";
+    append_value(text, printed);
+    return text;
+}
+
 void add_names(std::string& text, const char* what, const std::vector<std::string>& names) {
     constexpr std::size_t k_most_names = 30;
     if (!names.empty()) {
@@ -152,9 +160,9 @@ void add_item(std::string& text, const Comparison& comparison, const ComparisonI
                             : "   (k = " + item.k.text + (item.nu.text.empty() ? "" : ", nu = " + item.nu.text) +
                                   ", p = " + coverage + ")");
     if (item.consistency) {
-        text += fmt::format("  consistency: chi-square {} on {}, p = {}{}\n", item.consistency->chi_square.text,
+        text += fmt::format("  consistency: chi-square {} on {}, p {}{}\n", item.consistency->chi_square.text,
                             text::degrees_of_freedom(std::to_string(item.consistency->degrees_of_freedom)),
-                            item.consistency->p_value.text,
+                            equal_to(item.consistency->p_value.text),
                             item.consistency->consistent  ? ""
                             : item.consistency->by_chance ? "   not consistent, as one of several items is by chance"
                                                           : "   NOT consistent");
@@ -296,12 +304,12 @@ void add_rotary_table(std::string& text, const EvaluationRecord& record) {
         const Printed& printed = range.stated.printed;
         text += fmt::format("  {}  range {:>7} ± {} {}\n", range.name, printed.value, printed.U, printed.unit);
     }
-    text += fmt::format("\nAdjustment: {}, {}, chi-square {} on {}, p = {}\n",
+    text += fmt::format("\nAdjustment: {}, {}, chi-square {} on {}, p {}\n",
                         text::count_of(static_cast<std::int64_t>(rotary.adjustment.observations), "observation"),
                         text::count_of(static_cast<std::int64_t>(rotary.adjustment.parameters), "parameter"),
                         rotary.adjustment.chi_square.text,
                         text::degrees_of_freedom(std::to_string(rotary.adjustment.degrees_of_freedom)),
-                        rotary.adjustment.p_value.text);
+                        equal_to(rotary.adjustment.p_value.text));
     std::size_t removed = 0;
     for (const FlaggedDistance& distance : rotary.flagged) {
         removed += distance.removed ? 1 : 0;

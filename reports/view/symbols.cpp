@@ -109,6 +109,22 @@ nlohmann::json symbols_in(const EvaluationRecord& record) {
             names.insert(parameter.name);
         }
     }
+    // What an organiser calls a laboratory, an item or a round is a name, whatever it looks like.
+    if (record.comparison) {
+        for (const ParticipantSummary& participant : record.comparison->participants) {
+            names.erase(participant.id);
+            names.erase(participant.name);
+        }
+        for (const ComparisonItemEvaluation& item : record.comparison->items) {
+            names.erase(item.id);
+            names.erase(item.name);
+            names.erase(item.round);
+        }
+        for (const ComparisonPoint& point : record.comparison->points) {
+            names.erase(point.name);
+            names.erase(point.direction);
+        }
+    }
     nlohmann::json symbols = nlohmann::json::array();
     nlohmann::json letters = nlohmann::json::array();
     for (const std::string& name : names) {

@@ -21,6 +21,13 @@ TEST(Diagnostic, LeavesOutEmptyParts) {
     EXPECT_EQ(message({}), "");
 }
 
+TEST(Diagnostic, PrintsABoundInPlaceOfTheEqualsSign) {
+    EXPECT_EQ(message({.code = "c", .where = "", .what = "chi-square 9, p = <1E-300, n = 5", .rule = "", .action = ""}),
+              "chi-square 9, p < 1E-300, n = 5");
+    EXPECT_EQ(message({.code = "c", .where = "", .what = "a = <b>, r = > 1", .rule = "", .action = ""}),
+              "a = <b>, r = > 1");
+}
+
 TEST(DiagnosedError, CarriesEveryProblem) {
     const InputError error(std::vector<Diagnostic>{{.code = "1", .where = "a", .what = "x", .rule = {}, .action = {}},
                                                    {.code = "2", .where = "b", .what = "y", .rule = {}, .action = {}}});

@@ -49,6 +49,16 @@ TEST(Symbols, OfComparisonsAreThoseOfTheirScores) {
     for (const char* name : {"σ_pt", "δ_E", "P_A", "D_fail", "p_high", "u_others"}) {
         EXPECT_NE(all.find(std::string("\"") + name), std::string::npos) << name;
     }
+    // What an organiser calls a laboratory, an item or a point is a name.
+    record.comparison->participants.emplace_back().id = "p_low";
+    record.comparison->participants.back().name = "T_L";
+    record.comparison->items.emplace_back().id = "D_fail";
+    record.comparison->points.emplace_back().name = "A_U";
+    const std::string named = symbols_in(record).dump();
+    for (const char* name : {"p_low", "T_L", "D_fail", "A_U"}) {
+        EXPECT_EQ(named.find(std::string("\"") + name), std::string::npos) << name;
+    }
+    EXPECT_NE(named.find("\"p_high"), std::string::npos);
 }
 
 TEST(Symbols, OfEquationsAreThoseThatTheyDefine) {
