@@ -76,11 +76,11 @@ double without_rounding(double number, double rounding) {
         return number;
     }
     constexpr double k_most = 300.0;
-    const double decimals = std::clamp(-std::ceil(std::log10(rounding)), -k_most, k_most);
+    const double decimals = std::clamp(-std::floor(std::log10(rounding)), -k_most, k_most);
     const std::string digits = round_to_quantum(number, static_cast<int>(decimals));
     double rounded = number;
     std::from_chars(digits.data(), digits.data() + digits.size(), rounded);
-    return rounded;
+    return rounded != 0.0 ? rounded : number;
 }
 
 /// A difference that has no uncertainty and is not 0: the result and the assigned value are stated to be one quantity

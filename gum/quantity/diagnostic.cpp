@@ -1,5 +1,7 @@
 #include "gum/quantity/diagnostic.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <string_view>
 #include <utility>
 
@@ -7,13 +9,15 @@ namespace gumcert::gum {
 
 namespace {
 
-/// "p = <1E-300" as "p < 1E-300": a bound takes the place of the equals sign.
+/// "p = <1E-300" as "p < 1E-300": a bound takes the place of the equals sign, except in what is quoted.
 std::string with_bounds(std::string text) {
     for (const std::string_view sign : {"<", ">"}) {
         const std::string equal_to = "= " + std::string(sign);
         for (std::size_t at = text.find(equal_to); at != std::string::npos; at = text.find(equal_to, at + 1)) {
             const std::size_t digit = at + equal_to.size();
-            if (digit < text.size() && text[digit] >= '0' && text[digit] <= '9') {
+            const bool is_quoted =
+                std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '"') % 2 != 0;
+            if (!is_quoted && digit < text.size() && text[digit] >= '0' && text[digit] <= '9') {
                 text.replace(at, equal_to.size(), std::string(sign) + " ");
             }
         }
