@@ -233,13 +233,16 @@ void decide(const AuditedBudget& budget, const CoverageRule& coverage, double u_
                          .standard_uncertainty = outcome.u_c,
                          .expanded_uncertainty = outcome.U,
                          .degrees_of_freedom = outcome.nu_eff};
-    if (by_probability && is_convolution(budget, coverage, u_of_rows, outcome.nu_eff)) {
-        // As wide as the U that is stated: k and p hold for it as they do for that of the rows.
-        const std::vector<gum::ConvolutionTerm> terms = terms_of(budget);
-        const double stretch = remembered_half_width(terms, coverage.probability) / outcome.U;
-        y.distribution = [sum = gum::ConvolutionDistribution(terms), value = y.value, stretch](double x) {
-            return sum((x - value) * stretch);
-        };
+    // Also where k is that of t_p(ν_eff): one that agrees at 95 % says nothing of the tails.
+    const std::vector<gum::ConvolutionTerm> terms = terms_of(budget);
+    if (by_probability && budget.correlations.empty() && !terms.empty() && !gum::is_normal_or_student(terms)) {
+        // As wide as what is stated: k and p hold for that U as they do for that of the rows.
+        const double stretch = is_convolution(budget, coverage, u_of_rows, outcome.nu_eff)
+                                   ? remembered_half_width(terms, coverage.probability) / outcome.U
+                                   : u_of_rows / outcome.u_c;
+        const gum::ConvolutionDistribution sum(terms);
+        y.least_probability = sum.least_probability();
+        y.distribution = [sum, value = y.value, stretch](double x) { return sum((x - value) * stretch); };
     }
     try {
         outcome.verdict =

@@ -80,6 +80,7 @@ private:
                                                                const std::optional<ToleranceLimits>& normal,
                                                                double accepted, double low, double high);
     [[nodiscard]] double before_tail(double accepted, double limit) const;
+    [[nodiscard]] bool is_known(double risk);
     [[nodiscard]] bool trials_leave_open(double risk) const;
     [[nodiscard]] double width_of_normal(double risk) const;
     [[nodiscard]] bool at_most(double a, double b) const;
@@ -200,6 +201,9 @@ void Application::solve_risk(double risk) {
         decision_.acceptance = limits_;
         return;
     }
+    if (!is_known(risk)) {
+        return;
+    }
     if (auto solved = acceptance_limits_for_risk(y_, passable_, risk)) {
         solved->lower = limits_.lower && !passable_.lower ? limits_.lower : solved->lower;
         solved->upper = limits_.upper && !passable_.upper ? limits_.upper : solved->upper;
@@ -210,10 +214,21 @@ void Application::solve_risk(double risk) {
     }
 }
 
+/// Whether the distribution goes so far out that it tells the value with a risk. What a numerical convolution leaves out
+/// would make a guard band half as wide as it is.
+bool Application::is_known(double risk) {
+    if (risk < y_.least_probability) {
+        cannot("the distribution of the measurand is not known for so small a probability of nonconformity");
+    }
+    return reason_.empty();
+}
+
 void Application::prove(double probability) {
     zones_ = Zones::by_proof;
     solve_risk(1.0 - probability);
-    decision_.rejection = rejection_limits_for_probability(y_, limits_, probability);
+    if (reason_.empty()) {
+        decision_.rejection = rejection_limits_for_probability(y_, limits_, probability);
+    }
     decision_.formula = "pass: " + in_tolerance() + " ≥ p; fail: " + in_tolerance() +
                         " ≤ 1 − p; else undetermined; p = " + text::shortest(probability);
 }
@@ -244,6 +259,12 @@ void Application::posterior() {
     with_prior_ = true;
     zones_ = Zones::by_risk;
     largest_risk_ = p_.probability.value_or(k_z540_3_risk);
+    decision_.formula =
+        "pass: 1 − " + in_tolerance() + " ≤ R with the population as prior; R = " + text::shortest(largest_risk_);
+    if (!is_known(largest_risk_)) {
+        with_prior_ = false;
+        return;
+    }
     measured_ = y_;
     if (std::isfinite(y_.degrees_of_freedom) || has_long_tails(y_)) {
         // Tails that fall off more slowly than those of the population let it speak for any value far outside of the
@@ -272,8 +293,6 @@ void Application::posterior() {
             std::max(limits_.lower ? *solved->lower - *limits_.lower : -std::numeric_limits<double>::infinity(),
                      limits_.upper ? *limits_.upper - *solved->upper : -std::numeric_limits<double>::infinity());
     }
-    decision_.formula =
-        "pass: 1 − " + in_tolerance() + " ≤ R with the population as prior; R = " + text::shortest(largest_risk_);
 }
 
 void Application::take_as_normal() {
@@ -553,6 +572,9 @@ bool Application::trials_leave_open(double risk) const {
 /// conformity (ISO 14253-1). Rules with zones of rejection or a probability to prove have their own; with any other one
 /// y ± U lies outside of the tolerance.
 bool Application::nonconformity_is_proven() {
+    if (largest_risk_ > 0.0 && largest_risk_ < y_.least_probability) {
+        return zones_ == Zones::by_risk && beyond(guarded_limits(limits_, -y_.expanded_uncertainty));
+    }
     if (zones_ == Zones::by_proof || with_prior_) {
         return proven_on_one_side(1.0 - largest_risk_);
     }

@@ -41,6 +41,7 @@ constexpr double k_negligible_cell = 1e-15;  // of a probability; what Fourier t
 constexpr double k_widest_grid = 60.0;       // in standard deviations of the sum; wider where the tails ask for it
 constexpr double k_next_grid = 64.0;         // of a grid for probabilities, as a multiple of the one before
 constexpr double k_widest_of_all = 1e12;     // no one asks further out, though tails of ν < 0.5 reach there
+constexpr double k_least_on_grid = 1e-7;     // of a probability, for two digits beside what is left out of the grid
 
 /// A distribution about 0: X − E[X], or E[X] − X.
 struct Centred {
@@ -881,6 +882,33 @@ struct ConvolutionDistribution::Table {
     std::vector<double> sums;  // of samples alone
     std::optional<FourierSeries> series;
     std::optional<GridDistribution> grid;
+    double least_probability = 0.0;
+
+    static constexpr double k_known = 100.0;  // of an error, for two digits
+
+    /// What lies beyond the widest grid of all has no place: with less than one degree of freedom that is a part to feel.
+    void know_from_grid(std::span<const Centred> distributions) {
+        constexpr double k_last_width = 0.0625 * k_widest_of_all;
+        for (const Centred& term : distributions) {
+            if (distributions.size() > 1 && term.distribution.kind == DistributionKind::student_t) {
+                know_from(k_known * upper_tail_probability(term.distribution, k_last_width * term.distribution.scale));
+            }
+        }
+        know_from(distributions.size() > 1 ? k_least_on_grid : 0.0);
+    }
+    void know_from(double probability) { least_probability = std::max(least_probability, probability); }
+    /// As many terms as small probabilities ask for, where they are few: a risk of 1e-6 has digits of its own.
+    void take_series(std::span<const Centred> distributions) {
+        constexpr double k_least_error = 1e-11;
+        series = fourier_series(distributions, k_least_error, 0.5 * k_least_error, k_most_nodes / 16);
+        if (series) {
+            return know_from(k_known * k_least_error);
+        }
+        series = fourier_series(distributions, k_fourier_error, 0.5 * k_fourier_error, k_most_nodes / 4);
+        if (series) {
+            know_from(0.5 * k_known * k_fourier_error);  // of one side
+        }
+    }
 
     [[nodiscard]] double by_series(double x) const {
         const double distance = std::abs(x);
@@ -895,15 +923,26 @@ ConvolutionDistribution::ConvolutionDistribution(std::span<const ConvolutionTerm
     Table table;
     std::vector<Centred> distributions = centred_distributions(terms);
     table.sums = possible_sums(distributions, k_most_sums);
+    for (const Centred& term : distributions) {
+        if (term.distribution.kind == DistributionKind::empirical) {
+            table.least_probability =
+                std::max(table.least_probability, 1.0 / static_cast<double>(term.distribution.samples->size()));
+        }
+    }
     // A single term is asked itself.
     if (distributions.size() > 1 &&
         std::all_of(distributions.begin(), distributions.end(), [](const Centred& term) { return term.symmetric; })) {
-        table.series = fourier_series(distributions, k_fourier_error, 0.5 * k_fourier_error, k_most_nodes / 4);
+        table.take_series(distributions);
     }
     if (table.sums.empty() && !table.series) {
+        table.know_from_grid(distributions);
         table.grid.emplace(std::move(distributions));
     }
     table_ = std::make_shared<const Table>(std::move(table));
+}
+
+double ConvolutionDistribution::least_probability() const {
+    return table_->least_probability;
 }
 
 double ConvolutionDistribution::below(double x) const {
@@ -1253,6 +1292,33 @@ std::optional<std::vector<ConvolutionTerm>> convolution_terms(const MeasurementM
                                                               const Propagation& propagation, Eigen::Index output) {
     auto result = terms_of(model, propagation, output, std::nullopt);
     return result ? std::optional(std::move(result->terms)) : std::nullopt;
+}
+
+bool is_normal_or_student(const MeasurementModel& model, const Propagation& propagation, Eigen::Index output) {
+    bool has_normal = false;
+    int students = 0;
+    for (std::size_t g = 0; g < model.inputs().size(); ++g) {
+        const InputGroup& group = model.inputs()[g];
+        if (propagation.budget[g].variance(output) == 0.0) {
+            continue;
+        }
+        const bool is_single = group.size() == 1 && group.marginals.size() == 1;
+        const bool is_student = is_single ? group.marginals.front().kind == DistributionKind::student_t
+                                          : std::isfinite(group.degrees_of_freedom);
+        if (is_single ? !is_student && group.marginals.front().kind != DistributionKind::normal
+                      : !is_elliptical(group)) {
+            return false;
+        }
+        has_normal = has_normal || !is_student;
+        students += is_student ? 1 : 0;
+    }
+    return students + (has_normal ? 1 : 0) <= 1;
+}
+
+bool is_normal_or_student(std::span<const ConvolutionTerm> terms) {
+    const std::vector<Centred> all = centred_distributions(terms);
+    const DistributionKind kind = all.front().distribution.kind;
+    return all.size() == 1 && (kind == DistributionKind::normal || kind == DistributionKind::student_t);
 }
 
 std::optional<ConvolvedOutput> expand_by_convolution(const MeasurementModel& model, const Propagation& propagation,
