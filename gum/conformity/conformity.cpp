@@ -21,6 +21,7 @@ constexpr double k_rounding = 16.0 * std::numeric_limits<double>::epsilon();
 constexpr double k_noise_of_a_risk = 1e-12;  // relative
 constexpr double k_z540_3_risk = 0.02;       // ANSI/NCSL Z540.3, 5.3
 constexpr double k_iso_14253_1_probability = 0.95;
+constexpr double k_sure = 3.0;  // standard uncertainties of a count: 0.3 % of sound decisions stay open
 
 /// How the zones of a rule become verdicts.
 enum class Zones {
@@ -70,6 +71,7 @@ private:
     void verdict();
     void global_risks();
     void explain();
+    void forget_what_no_trial_tells();
 
     [[nodiscard]] bool nonconformity_is_proven();
     [[nodiscard]] bool proven_on_one_side(double probability) const;
@@ -562,7 +564,6 @@ bool Application::trials_leave_open(double risk) const {
     if (!(y_.trials > 0.0)) {
         return false;
     }
-    constexpr double k_sure = 3.0;  // standard uncertainties of a count: 0.3 % of sound decisions stay open
     const double scatter = k_sure * std::sqrt(largest_risk_ * (1.0 - largest_risk_) / y_.trials);
     return std::abs(risk - largest_risk_) < scatter ||
            (zones_ == Zones::by_proof && std::abs(risk - (1.0 - largest_risk_)) < scatter);
@@ -668,6 +669,16 @@ void Application::explain() {
     }
 }
 
+/// Of a risk of which hardly a trial is expected, the limits of acceptance would be the outermost trials.
+void Application::forget_what_no_trial_tells() {
+    const bool by_risk = zones_ == Zones::by_risk || zones_ == Zones::by_proof;
+    if (by_risk && y_.trials > 0.0 && largest_risk_ * y_.trials < k_sure * k_sure) {
+        decision_.acceptance = {};
+        decision_.guard_band = 0.0;
+        decision_.largest_specific_risk.reset();
+    }
+}
+
 ConformityDecision Application::decide() {
     set_zones();
     verdict();
@@ -679,6 +690,7 @@ ConformityDecision Application::decide() {
     decision_.specific_risk = rejected ? decision_.conformance_probability : risk_of(y_.value);
     global_risks();
     explain();
+    forget_what_no_trial_tells();
     return decision_;
 }
 

@@ -566,6 +566,17 @@ TEST(DecideConformity, TrialsDecideOnlyWhereTheirNumberDoes) {
         decide_conformity(DecisionRule::specific_risk, {.probability = 0.05}, k_upper, value_with_risk(0.043, 10000.0))
             .verdict,
         pass);
+    // Of a risk of which no trial is expected, the outermost trial is no limit of acceptance; one far beyond it fails.
+    for (const double trials : {1e6, 1e8}) {
+        for (const double risk : {1e-12, 1e-3}) {
+            const ConformityDecision d = decide_conformity(DecisionRule::specific_risk, {.probability = 1e-7}, k_upper,
+                                                           value_with_risk(risk, trials));
+            EXPECT_EQ(d.verdict, risk > 1e-7 ? fail : trials < 1e7 ? not_applicable : pass);
+            EXPECT_EQ(d.acceptance.upper.has_value(), trials > 1e7);
+            EXPECT_EQ(d.largest_specific_risk.has_value(), trials > 1e7);
+            EXPECT_EQ(d.guard_band > 0.0, trials > 1e7);
+        }
+    }
     EXPECT_EQ(decide_conformity(DecisionRule::guard_band_u, {}, k_upper, value_with_risk(0.05, 10.0)).note, "")
         << "a rule with U does not ask for the probability";
 }
