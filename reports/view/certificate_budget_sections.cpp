@@ -76,10 +76,21 @@ std::string equation_for_people(const std::string& equation) {
     return out;
 }
 
+/// Of "min(1,2)", which would read as 1.2.
+bool has_comma_between_digits(const std::string& text) {
+    const auto is_digit = [&](std::size_t at) { return at < text.size() && text[at] >= '0' && text[at] <= '9'; };
+    for (std::size_t at = text.find(','); at != std::string::npos; at = text.find(',', at + 1)) {
+        if (at > 0 && is_digit(at - 1) && is_digit(at + 1)) {
+            return true;
+        }
+    }
+    return false;
+}
+
 /// With the decimal sign of the document. Where that is a comma, semicolons part the arguments of a function.
 std::string equation_for_people(const std::string& equation, const Wording& words) {
     std::string shown = equation_for_people(equation);
-    const bool has_decimals = with_decimal_sign(shown, ",") != shown;
+    const bool has_decimals = with_decimal_sign(shown, ",") != shown || has_comma_between_digits(shown);
     if (has_decimals && words.decimal_sign() == ",") {
         std::replace(shown.begin(), shown.end(), ',', ';');
     }

@@ -309,13 +309,15 @@ TEST(BudgetCertificate, EquationsAreWrittenAsMathematics) {
 
 TEST(BudgetCertificate, EquationsHaveTheDecimalSignOfTheDocument) {
     EvaluationRecord record = test::sample_budget_record();
-    record.model->equations = {"y = max(1.5*a, 0.25) - 1e-5", "z = max(a, b)"};
+    record.model->equations = {"y = max(1.5*a, 0.25) - 1e-5", "z = max(a, b)", "v = min(1,2)"};
     const auto dump = [&](const char* language) {
         std::ifstream file(std::string(GUMCERT_SOURCE_DIR) + "/templates/wording/" + language + ".json");
         return certificate_view(record, Wording(json::parse(file))).dump();
     };
     EXPECT_THAT(dump("de"), HasSubstr("y = max(1,5·a; 0,25) − 1e-5"));
     EXPECT_THAT(dump("de"), HasSubstr("z = max(a, b)"));
+    EXPECT_THAT(dump("de"), HasSubstr("v = min(1;2)")) << "not 1.2";
+    EXPECT_THAT(dump("en"), HasSubstr("v = min(1,2)"));
     EXPECT_THAT(dump("en"), HasSubstr("y = max(1.5·a, 0.25) − 1e-5"));
 }
 
