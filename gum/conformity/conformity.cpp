@@ -19,6 +19,7 @@ namespace {
 
 constexpr double k_rounding = 16.0 * std::numeric_limits<double>::epsilon();
 constexpr double k_noise_of_a_risk = 1e-12;  // relative
+constexpr double k_rounded_risk = 1e-6;      // relative: 1 − 0.9999999 is 1e-7
 constexpr double k_z540_3_risk = 0.02;       // ANSI/NCSL Z540.3, 5.3
 constexpr double k_iso_14253_1_probability = 0.95;
 constexpr double k_sure = 3.0;  // standard uncertainties of a count: 0.3 % of sound decisions stay open
@@ -219,7 +220,7 @@ void Application::solve_risk(double risk) {
 /// Whether the distribution goes so far out that it tells the value with a risk. What a numerical convolution leaves out
 /// would make a guard band half as wide as it is.
 bool Application::is_known(double risk) {
-    if (risk < y_.least_probability) {
+    if (risk < y_.least_probability * (1.0 - k_rounded_risk)) {
         cannot("the distribution of the measurand is not known for so small a probability of nonconformity");
     }
     return reason_.empty();
@@ -573,7 +574,7 @@ bool Application::trials_leave_open(double risk) const {
 /// conformity (ISO 14253-1). Rules with zones of rejection or a probability to prove have their own; with any other one
 /// y ± U lies outside of the tolerance.
 bool Application::nonconformity_is_proven() {
-    if (largest_risk_ > 0.0 && largest_risk_ < y_.least_probability) {
+    if (largest_risk_ > 0.0 && largest_risk_ < y_.least_probability * (1.0 - k_rounded_risk)) {
         return zones_ == Zones::by_risk && beyond(guarded_limits(limits_, -y_.expanded_uncertainty));
     }
     if (zones_ == Zones::by_proof || with_prior_) {

@@ -62,8 +62,12 @@ public:
     /// P(… < x), which differs where samples are the only term: each of them has a probability of its own.
     [[nodiscard]] double below(double x) const;
 
+    /// Whether possible values of the sum are listed, each with a probability of its own: of samples alone, if not too many.
+    [[nodiscard]] bool has_single_values() const;
+
     /// What is smaller is not known to a hundredth of itself: 1e-9 of most symmetric terms, 1e-7 on cells of a grid, 1e-5
-    /// of several t-distributions of few degrees of freedom, 1/n of n samples. 0 of a single term.
+    /// of symmetric ones whose t-distributions have so few degrees of freedom that the series is cut, 1/n of n samples with
+    /// 0.1 % of the variance or more. 0 of another single term.
     [[nodiscard]] double least_probability() const;
 
 private:

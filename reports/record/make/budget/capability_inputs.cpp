@@ -90,7 +90,13 @@ certificate::ResultDistribution convolved(const gum::MeasurementModel& model, co
     }
     const gum::ConvolutionDistribution distribution(*terms);
     const double centre = propagation.value(output);
-    // A limit that is a possible value differs from it by roundings alone.
+    if (!distribution.has_single_values()) {
+        return {.function = [=](double x) { return distribution(unit.to_si(x) - centre); },
+                .below = {},
+                .least_probability = distribution.least_probability()};
+    }
+    // A limit that is a possible value differs from it by roundings alone. Of other distributions the same roundings would
+    // move a limit, where u is small against the value.
     constexpr double k_roundings = 8.0;
     const auto rounding = [centre](double x) {
         return k_roundings * std::numeric_limits<double>::epsilon() * std::max(std::abs(x), std::abs(centre));

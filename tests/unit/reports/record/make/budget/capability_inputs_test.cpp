@@ -138,6 +138,18 @@ TEST(CapabilityInputs, HoldTheDistributionWhereKAgreesWithThatOfT) {
     }
 }
 
+// 10 MHz with u of 6e-8 Hz: roundings of a limit that is a possible value would move it by a third of u.
+TEST(CapabilityInputs, MoveNoLimitOfAContinuousDistribution) {
+    const jobs::BudgetJob job = certified_budget(
+        R"("x": {"value": 1e7, "unit": "mm", "u": 5e-8}, "d": {"value": 0, "unit": "mm", "half_width": 3e-8})",
+        "y = x + d");
+    const gum::BudgetResult result = gum::evaluate_budget(job, 1);
+    const certificate::ResultDistribution y = capability_inputs(job, result).distributions.at("y")();
+    const gum::Unit unit = result.points.at(0).outputs.at(0).unit;
+    EXPECT_FALSE(y.below);
+    EXPECT_NEAR(y.function(unit.from_si(1e-3 * 1e7)), 0.5, 1e-6);
+}
+
 TEST(CapabilityInputs, HoldTheDistributionOfAConvolution) {
     const jobs::BudgetJob job =
         certified_budget(R"("x": {"value": 10, "unit": "mm", "half_width": 0.1, "distribution": "uniform"})", "y = x");
