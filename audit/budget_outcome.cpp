@@ -151,15 +151,36 @@ gum::Distribution distribution_of(const AuditedRow& row) {
     return distribution;
 }
 
+/// All that a convolution of terms depends on, which are such as distribution_of() makes.
+std::vector<double> key_of(const std::vector<gum::ConvolutionTerm>& terms) {
+    std::vector<double> key;
+    for (const gum::ConvolutionTerm& term : terms) {
+        const gum::Distribution& d = term.distribution;
+        key.insert(key.end(), {term.sensitivity, static_cast<double>(d.kind), d.scale, d.shape});
+    }
+    return key;
+}
+
 /// Half-width of the coverage interval by convolution, [unit of y], which takes a thousand times as long as the rest.
 double remembered_half_width(const std::vector<gum::ConvolutionTerm>& terms, double probability) {
     static thread_local std::map<std::vector<double>, double> known;
-    std::vector<double> key{probability};
-    for (const gum::ConvolutionTerm& term : terms) {
-        const gum::Distribution& d = term.distribution;  // each of those that distribution_of() makes
-        key.insert(key.end(), {term.sensitivity, static_cast<double>(d.kind), d.scale, d.shape});
-    }
+    std::vector<double> key = key_of(terms);
+    key.push_back(probability);
     return remembered(known, std::move(key), [&] { return gum::convolution_half_width(terms, probability); });
+}
+
+/// The distribution itself. A table of one may take a megabyte: only the last ones are kept.
+gum::ConvolutionDistribution remembered_distribution(const std::vector<gum::ConvolutionTerm>& terms) {
+    constexpr std::size_t k_most = 8;
+    static thread_local std::map<std::vector<double>, gum::ConvolutionDistribution> known;
+    std::vector<double> key = key_of(terms);
+    if (const auto found = known.find(key); found != known.end()) {
+        return found->second;
+    }
+    if (known.size() == k_most) {
+        known.clear();
+    }
+    return known.emplace(std::move(key), gum::ConvolutionDistribution(terms)).first->second;
 }
 
 std::vector<gum::ConvolutionTerm> terms_of(const AuditedBudget& budget) {
@@ -220,6 +241,22 @@ bool has_limits(const gum::ToleranceLimits& limits) {
     return limits.lower.has_value() || limits.upper.has_value();
 }
 
+/// Whether the distribution of the result is the convolution of the rows as distribution_of() has them: they are independent,
+/// none has a shape of another kind, and they are as wide as the result. Correlations and terms of second order, of a record of
+/// ours a number alone, belong to another distribution, which nobody knows here.
+bool is_convolution_of_rows(const AuditedBudget& budget, double u_of_rows) {
+    constexpr double k_rounding = 1e-9;
+    double variance = 0.0;
+    for (const AuditedRow& row : budget.rows) {
+        const double part = contribution_of(row) / u_of_rows;
+        variance += part * part;
+        if (part > 0.0 && (row.shape == Shape::trapezoidal || row.shape == Shape::other)) {
+            return false;
+        }
+    }
+    return budget.correlations.empty() && std::abs(variance - 1.0) <= k_rounding;
+}
+
 /// \param u_of_rows  what their contributions combine to
 void decide(const AuditedBudget& budget, const CoverageRule& coverage, double u_of_rows, BudgetOutcome& outcome) {
     if (!budget.rule || !has_limits(budget.limits) || !outcome.value || !(outcome.U > 0.0)) {
@@ -229,17 +266,25 @@ void decide(const AuditedBudget& budget, const CoverageRule& coverage, double u_
     if (by_probability && !budget.has_known_distribution) {
         return;
     }
+    // A raised U has its k: u is what both say.
+    const double u = outcome.at_capability ? outcome.U / outcome.k : outcome.u_c;
     gum::MeasuredValue y{.value = *outcome.value,
-                         .standard_uncertainty = outcome.u_c,
+                         .standard_uncertainty = u,
                          .expanded_uncertainty = outcome.U,
                          .degrees_of_freedom = outcome.nu_eff};
-    if (by_probability && is_convolution(budget, coverage, u_of_rows, outcome.nu_eff)) {
-        // As wide as the U that is stated: k and p hold for it as they do for that of the rows.
-        const std::vector<gum::ConvolutionTerm> terms = terms_of(budget);
-        const double stretch = remembered_half_width(terms, coverage.probability) / outcome.U;
-        y.distribution = [sum = gum::ConvolutionDistribution(terms), value = y.value, stretch](double x) {
-            return sum((x - value) * stretch);
-        };
+    // Also where k is that of t_p(ν_eff): one that agrees at 95 % says nothing of the tails.
+    const std::vector<gum::ConvolutionTerm> terms = terms_of(budget);
+    if (by_probability && !terms.empty() && !gum::is_normal_or_student(terms)) {
+        if (!is_convolution_of_rows(budget, u_of_rows)) {
+            return;
+        }
+        // As wide as what is stated: k and p hold for that U as they do for that of the rows.
+        const double stretch = is_convolution(budget, coverage, u_of_rows, outcome.nu_eff)
+                                   ? remembered_half_width(terms, coverage.probability) / outcome.U
+                                   : u_of_rows / u;
+        const gum::ConvolutionDistribution sum = remembered_distribution(terms);
+        y.least_probability = sum.least_probability();
+        y.distribution = [sum, value = y.value, stretch](double x) { return sum((x - value) * stretch); };
     }
     try {
         outcome.verdict =
@@ -339,7 +384,8 @@ void print(const AuditedBudget& budget, BudgetOutcome& outcome) {
 }  // namespace
 
 bool verdict_turns(std::string_view before, std::string_view after) {
-    return before != after && before != k_no_decision && after != k_no_decision;
+    const auto is_one = [](std::string_view verdict) { return !verdict.empty() && verdict != k_no_decision; };
+    return before != after && is_one(before) && is_one(after);
 }
 
 double contribution_of(const AuditedRow& row) {

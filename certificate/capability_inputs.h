@@ -19,16 +19,22 @@ struct InputValues {
     std::optional<double> without_point = {};  ///< of results that have no point, beside others that have one
 };
 
+/// What is known of the distribution of a result, x in its unit.
+struct ResultDistribution {
+    std::function<double(double)> function;  ///< P(Y ≤ x)
+    std::function<double(double)> below;     ///< P(Y < x), where single values have a probability; empty: P(Y ≤ x)
+    double least_probability = 0.0;          ///< what is smaller is not known
+};
+
 /// What the evaluation knows beside its record.
 struct CapabilityInputs {
     std::map<std::string, InputValues> values;  ///< by the name of the input
     /// Of each result, by Result::name: sensitivity coefficients of the inputs that its model rests on, by their names, in
     /// coherent units. Inputs that only a point states, such as a nominal value, have none.
     std::map<std::string, std::map<std::string, double>> sensitivities = {};
-    /// P(Y ≤ x) of results whose k comes from a convolution, by Result::name; x in the unit of the result.
-    std::map<std::string, std::function<double(double)>> distributions;
-    /// P(Y < x) of the same results, where it differs: where single values have a probability of their own.
-    std::map<std::string, std::function<double(double)>> distributions_below;
+    /// Of results that are neither normal nor have a t-distribution, by Result::name: the convolution of all contributions,
+    /// also where its k is that of t_p(ν_eff). Made where a decision needs it, one result after the other: it takes memory.
+    std::map<std::string, std::function<ResultDistribution()>> distributions;
     /// Trials of results whose U comes from Monte Carlo, by Result::name. Counted where a decision needs them, one
     /// result after the other: they take memory.
     std::map<std::string, gum::TrialsOfOutput> trials = {};

@@ -137,9 +137,7 @@ Evaluation evaluate_circle_closure_job(const EvaluationTask& task) {
     evaluation.negative = result.validation_failed;
     if (job.certificate) {
         make_certificate(task, evaluation, job.certificate, profile,
-                         {.values = {},
-                          .distributions = reports::circle_closure_distributions(job, result),
-                          .distributions_below = {}});
+                         {.values = {}, .distributions = reports::circle_closure_distributions(job, result)});
     }
     return evaluation;
 }

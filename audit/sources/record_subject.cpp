@@ -8,6 +8,8 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -185,6 +187,33 @@ bool is_sum_of_known_shapes(const AuditedBudget& budget) {
                return contribution_of(row) == 0.0 || row.shape == Shape::normal || row.shape == Shape::student_t ||
                       row.shape == Shape::rectangular || row.shape == Shape::triangular || row.shape == Shape::arcsine;
            });
+}
+
+/// Whether two of the rows belong to inputs that correlate, also where what that adds to u² cancels.
+bool has_correlated_rows(const AuditedBudget& budget) {
+    return std::any_of(budget.inputs_with_correlation.begin(), budget.inputs_with_correlation.end(),
+                       [&](const std::set<std::string>& together) {
+                           std::set<std::string> contributing;
+                           for (const AuditedRow& row : budget.rows) {
+                               if (contribution_of(row) > 0.0 && together.count(row.input) > 0) {
+                                   contributing.insert(row.input);
+                               }
+                           }
+                           return contributing.size() > 1;
+                       });
+}
+
+/// Whether the result is normal, however its rows correlate, or a single row is all there is.
+bool is_normal_or_one_student(const AuditedBudget& budget) {
+    std::size_t contributing = 0, normal = 0, student = 0;
+    for (const AuditedRow& row : budget.rows) {
+        if (contribution_of(row) > 0.0) {
+            ++contributing;
+            normal += row.shape == Shape::normal && !std::isfinite(row.used_nu) ? 1U : 0U;
+            student += row.shape == Shape::normal || row.shape == Shape::student_t ? 1U : 0U;
+        }
+    }
+    return normal == contributing || (contributing == 1 && student == 1);
 }
 
 /// The rule that gives the k of a result again: that of the evaluation, which every corrected copy takes anew; of ν_eff, of
@@ -424,12 +453,9 @@ AuditedBudget budget_of(const reports::EvaluationRecord& record, const reports::
         budget.coverage = {
             .kind = CoverageRule::Kind::fixed, .k = *half_width / u, .probability = reported.coverage_probability};
     }
-    const bool is_convolved = result.coverage == "convolution";
-    const bool is_of_rows = budget.coverage.kind != CoverageRule::Kind::fixed && budget.correlations.empty() &&
-                            std::none_of(budget.rows.begin(), budget.rows.end(), [](const AuditedRow& row) {
-                                return row.shape == Shape::other && contribution_of(row) > 0.0;
-                            });
-    budget.has_known_distribution = !by_trials && (!is_convolved || is_of_rows);
+    const bool is_of_rows = budget.coverage.kind != CoverageRule::Kind::fixed && is_sum_of_known_shapes(budget) &&
+                            !has_correlated_rows(budget);
+    budget.has_known_distribution = !by_trials && (is_of_rows || is_normal_or_one_student(budget));
     Claims& claims = budget.claims;
     claims.value = exact_number(reported.value, budget.place);
     claims.value->text = reported.printed.value;

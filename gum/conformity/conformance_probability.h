@@ -20,6 +20,8 @@ struct MeasuredValue {
     std::function<double(double)> distribution_below = {};
     /// Trials that `distribution` counts: its probabilities scatter by their number. 0: it has no scatter
     double trials = 0.0;
+    /// `distribution` tells nothing of probabilities below it; 0: it has all of them
+    double least_probability = 0.0;
 };
 
 /// \throws InputError  GC-GUM-0081 if a number is out of range

@@ -19,8 +19,10 @@ namespace {
 
 constexpr double k_rounding = 16.0 * std::numeric_limits<double>::epsilon();
 constexpr double k_noise_of_a_risk = 1e-12;  // relative
+constexpr double k_rounded_risk = 1e-6;      // relative: 1 − 0.9999999 is 1e-7
 constexpr double k_z540_3_risk = 0.02;       // ANSI/NCSL Z540.3, 5.3
 constexpr double k_iso_14253_1_probability = 0.95;
+constexpr double k_sure = 3.0;  // standard uncertainties of a count: 0.3 % of sound decisions stay open
 
 /// How the zones of a rule become verdicts.
 enum class Zones {
@@ -70,6 +72,7 @@ private:
     void verdict();
     void global_risks();
     void explain();
+    void forget_what_no_trial_tells();
 
     [[nodiscard]] bool nonconformity_is_proven();
     [[nodiscard]] bool proven_on_one_side(double probability) const;
@@ -80,6 +83,7 @@ private:
                                                                const std::optional<ToleranceLimits>& normal,
                                                                double accepted, double low, double high);
     [[nodiscard]] double before_tail(double accepted, double limit) const;
+    [[nodiscard]] bool is_known(double risk);
     [[nodiscard]] bool trials_leave_open(double risk) const;
     [[nodiscard]] double width_of_normal(double risk) const;
     [[nodiscard]] bool at_most(double a, double b) const;
@@ -200,6 +204,9 @@ void Application::solve_risk(double risk) {
         decision_.acceptance = limits_;
         return;
     }
+    if (!is_known(risk)) {
+        return;
+    }
     if (auto solved = acceptance_limits_for_risk(y_, passable_, risk)) {
         solved->lower = limits_.lower && !passable_.lower ? limits_.lower : solved->lower;
         solved->upper = limits_.upper && !passable_.upper ? limits_.upper : solved->upper;
@@ -210,10 +217,21 @@ void Application::solve_risk(double risk) {
     }
 }
 
+/// Whether the distribution goes so far out that it tells the value with a risk. What a numerical convolution leaves out
+/// would make a guard band half as wide as it is.
+bool Application::is_known(double risk) {
+    if (risk < y_.least_probability * (1.0 - k_rounded_risk)) {
+        cannot("the distribution of the measurand is not known for so small a probability of nonconformity");
+    }
+    return reason_.empty();
+}
+
 void Application::prove(double probability) {
     zones_ = Zones::by_proof;
     solve_risk(1.0 - probability);
-    decision_.rejection = rejection_limits_for_probability(y_, limits_, probability);
+    if (reason_.empty()) {
+        decision_.rejection = rejection_limits_for_probability(y_, limits_, probability);
+    }
     decision_.formula = "pass: " + in_tolerance() + " ≥ p; fail: " + in_tolerance() +
                         " ≤ 1 − p; else undetermined; p = " + text::shortest(probability);
 }
@@ -244,6 +262,12 @@ void Application::posterior() {
     with_prior_ = true;
     zones_ = Zones::by_risk;
     largest_risk_ = p_.probability.value_or(k_z540_3_risk);
+    decision_.formula =
+        "pass: 1 − " + in_tolerance() + " ≤ R with the population as prior; R = " + text::shortest(largest_risk_);
+    if (!is_known(largest_risk_)) {
+        with_prior_ = false;
+        return;
+    }
     measured_ = y_;
     if (std::isfinite(y_.degrees_of_freedom) || has_long_tails(y_)) {
         // Tails that fall off more slowly than those of the population let it speak for any value far outside of the
@@ -272,8 +296,6 @@ void Application::posterior() {
             std::max(limits_.lower ? *solved->lower - *limits_.lower : -std::numeric_limits<double>::infinity(),
                      limits_.upper ? *limits_.upper - *solved->upper : -std::numeric_limits<double>::infinity());
     }
-    decision_.formula =
-        "pass: 1 − " + in_tolerance() + " ≤ R with the population as prior; R = " + text::shortest(largest_risk_);
 }
 
 void Application::take_as_normal() {
@@ -543,7 +565,6 @@ bool Application::trials_leave_open(double risk) const {
     if (!(y_.trials > 0.0)) {
         return false;
     }
-    constexpr double k_sure = 3.0;  // standard uncertainties of a count: 0.3 % of sound decisions stay open
     const double scatter = k_sure * std::sqrt(largest_risk_ * (1.0 - largest_risk_) / y_.trials);
     return std::abs(risk - largest_risk_) < scatter ||
            (zones_ == Zones::by_proof && std::abs(risk - (1.0 - largest_risk_)) < scatter);
@@ -553,6 +574,9 @@ bool Application::trials_leave_open(double risk) const {
 /// conformity (ISO 14253-1). Rules with zones of rejection or a probability to prove have their own; with any other one
 /// y ± U lies outside of the tolerance.
 bool Application::nonconformity_is_proven() {
+    if (largest_risk_ > 0.0 && largest_risk_ < y_.least_probability * (1.0 - k_rounded_risk)) {
+        return zones_ == Zones::by_risk && beyond(guarded_limits(limits_, -y_.expanded_uncertainty));
+    }
     if (zones_ == Zones::by_proof || with_prior_) {
         return proven_on_one_side(1.0 - largest_risk_);
     }
@@ -646,6 +670,16 @@ void Application::explain() {
     }
 }
 
+/// Of a risk of which hardly a trial is expected, the limits of acceptance would be the outermost trials.
+void Application::forget_what_no_trial_tells() {
+    const bool by_risk = zones_ == Zones::by_risk || zones_ == Zones::by_proof;
+    if (by_risk && y_.trials > 0.0 && largest_risk_ * y_.trials < k_sure * k_sure) {
+        decision_.acceptance = {};
+        decision_.guard_band = 0.0;
+        decision_.largest_specific_risk.reset();
+    }
+}
+
 ConformityDecision Application::decide() {
     set_zones();
     verdict();
@@ -657,6 +691,7 @@ ConformityDecision Application::decide() {
     decision_.specific_risk = rejected ? decision_.conformance_probability : risk_of(y_.value);
     global_risks();
     explain();
+    forget_what_no_trial_tells();
     return decision_;
 }
 

@@ -37,11 +37,13 @@ using BesselPolicy =
 constexpr std::size_t k_convolution_cells = std::size_t{1} << 15U;
 // A margin of cells, so that the probability at the last ones does not wrap around to the other side of the grid.
 constexpr std::size_t k_last_cell = k_convolution_cells / 2 * 10 / 11;
-constexpr double k_tail_beyond_grid = 1e-9;  // probability of a term outside the grid, of those without limits
-constexpr double k_negligible_cell = 1e-15;  // of a probability; what Fourier transforms leave behind is smaller
-constexpr double k_widest_grid = 60.0;       // in standard deviations of the sum; wider where the tails ask for it
-constexpr double k_next_grid = 64.0;         // of a grid for probabilities, as a multiple of the one before
-constexpr double k_widest_of_all = 1e12;     // no one asks further out, though tails of ν < 0.5 reach there
+constexpr double k_tail_beyond_grid = 1e-9;    // probability of a term outside the grid, of those without limits
+constexpr double k_negligible_cell = 1e-15;    // of a probability; what Fourier transforms leave behind is smaller
+constexpr double k_widest_grid = 60.0;         // in standard deviations of the sum; wider where the tails ask for it
+constexpr double k_next_grid = 64.0;           // of a grid for probabilities, as a multiple of the one before
+constexpr double k_widest_of_all = 1e12;       // no one asks further out, though tails of ν < 0.5 reach there
+constexpr double k_negligible_samples = 1e-3;  // of the variance
+constexpr double k_least_on_grid = 1e-7;       // of a probability, for two digits beside what is left out of the grid
 
 /// A distribution about 0: X − E[X], or E[X] − X.
 struct Centred {
@@ -1048,6 +1050,22 @@ double GridDistribution::on_grids(double x) const {
     return symmetric ? 0.5 * (grid->at(x) + 1.0 - grid->at(-x)) : grid->at(x);
 }
 
+/// Whether a distribution function without edges would be asked for at each of thousands of cells: a table of the sum says
+/// the same between them, and takes a thousandth of the time.
+bool has_function_for_table(DistributionKind kind) {
+    switch (kind) {
+        case DistributionKind::normal:
+        case DistributionKind::triangular:
+        case DistributionKind::student_t:
+        case DistributionKind::gamma:
+        case DistributionKind::lognormal:
+        case DistributionKind::beta:
+            return true;
+        default:
+            return false;
+    }
+}
+
 GridDistribution::GridDistribution(std::vector<Centred> distributions) {
     // Samples have steps of their own: they are never looked up, but added up.
     const auto rank = [](const Centred& term) {
@@ -1056,9 +1074,7 @@ GridDistribution::GridDistribution(std::vector<Centred> distributions) {
     const auto greatest = std::max_element(distributions.begin(), distributions.end(),
                                            [&](const Centred& a, const Centred& b) { return rank(a) < rank(b); });
     const DistributionKind kind = greatest->distribution.kind;
-    // The distribution functions of these are expensive, and would be asked for at each of thousands of cells.
-    if (distributions.size() > 1 &&
-        (kind == DistributionKind::student_t || kind == DistributionKind::gamma || kind == DistributionKind::beta)) {
+    if (distributions.size() > 1 && has_function_for_table(kind)) {
         symmetric =
             std::all_of(distributions.begin(), distributions.end(), [](const Centred& term) { return term.symmetric; });
         double widest_grid = k_widest_grid;
@@ -1135,6 +1151,33 @@ struct ConvolutionDistribution::Table {
     std::vector<double> sums;  // of samples alone
     std::optional<FourierSeries> series;
     std::optional<GridDistribution> grid;
+    double least_probability = 0.0;
+
+    static constexpr double k_known = 100.0;  // of an error, for two digits
+
+    /// What lies beyond the widest grid of all has no place: with less than one degree of freedom that is a part to feel.
+    void know_from_grid(std::span<const Centred> distributions) {
+        constexpr double k_last_width = 0.0625 * k_widest_of_all;
+        for (const Centred& term : distributions) {
+            if (distributions.size() > 1 && term.distribution.kind == DistributionKind::student_t) {
+                know_from(k_known * upper_tail_probability(term.distribution, k_last_width * term.distribution.scale));
+            }
+        }
+        know_from(distributions.size() > 1 ? k_least_on_grid : 0.0);
+    }
+    void know_from(double probability) { least_probability = std::max(least_probability, probability); }
+    /// As many terms as small probabilities ask for, where they are few: a risk of 1e-6 has digits of its own.
+    void take_series(std::span<const Centred> distributions) {
+        constexpr double k_least_error = 1e-11;
+        series = fourier_series(distributions, k_least_error, 0.5 * k_least_error, k_most_nodes / 16, Digits::quick);
+        if (series) {
+            return know_from(k_known * k_least_error);
+        }
+        series = fourier_series(distributions, k_fourier_error, 0.5 * k_fourier_error, k_most_nodes / 4, Digits::quick);
+        if (series) {
+            know_from(0.5 * k_known * k_fourier_error);  // of one side
+        }
+    }
 
     [[nodiscard]] double by_series(double x) const {
         const double distance = std::abs(x);
@@ -1149,16 +1192,35 @@ ConvolutionDistribution::ConvolutionDistribution(std::span<const ConvolutionTerm
     Table table;
     std::vector<Centred> distributions = centred_distributions(terms);
     table.sums = possible_sums(distributions, k_most_sums);
+    double variance = 0.0;
+    for (const Centred& term : distributions) {
+        variance += width(term.distribution) * width(term.distribution);
+    }
+    for (const Centred& term : distributions) {
+        // The tail of a sum is not that of its samples where they are next to nothing of it.
+        const double part = width(term.distribution) * width(term.distribution);
+        if (term.distribution.kind == DistributionKind::empirical && part >= k_negligible_samples * variance) {
+            table.know_from(1.0 / static_cast<double>(term.distribution.samples->size()));
+        }
+    }
     // A single term is asked itself.
     if (distributions.size() > 1 &&
         std::all_of(distributions.begin(), distributions.end(), [](const Centred& term) { return term.symmetric; })) {
-        table.series =
-            fourier_series(distributions, k_fourier_error, 0.5 * k_fourier_error, k_most_nodes / 4, Digits::quick);
+        table.take_series(distributions);
     }
     if (table.sums.empty() && !table.series) {
+        table.know_from_grid(distributions);
         table.grid.emplace(std::move(distributions));
     }
     table_ = std::make_shared<const Table>(std::move(table));
+}
+
+bool ConvolutionDistribution::has_single_values() const {
+    return !table_->sums.empty();
+}
+
+double ConvolutionDistribution::least_probability() const {
+    return table_->least_probability;
 }
 
 double ConvolutionDistribution::below(double x) const {
@@ -1508,6 +1570,33 @@ std::optional<std::vector<ConvolutionTerm>> convolution_terms(const MeasurementM
                                                               const Propagation& propagation, Eigen::Index output) {
     auto result = terms_of(model, propagation, output, std::nullopt);
     return result ? std::optional(std::move(result->terms)) : std::nullopt;
+}
+
+bool is_normal_or_student(const MeasurementModel& model, const Propagation& propagation, Eigen::Index output) {
+    bool has_normal = false;
+    int students = 0;
+    for (std::size_t g = 0; g < model.inputs().size(); ++g) {
+        const InputGroup& group = model.inputs()[g];
+        if (propagation.budget[g].variance(output) == 0.0) {
+            continue;
+        }
+        const bool is_single = group.size() == 1 && group.marginals.size() == 1;
+        const bool is_student = is_single ? group.marginals.front().kind == DistributionKind::student_t
+                                          : std::isfinite(group.degrees_of_freedom);
+        if (is_single ? !is_student && group.marginals.front().kind != DistributionKind::normal
+                      : !is_elliptical(group)) {
+            return false;
+        }
+        has_normal = has_normal || !is_student;
+        students += is_student ? 1 : 0;
+    }
+    return students + (has_normal ? 1 : 0) <= 1;
+}
+
+bool is_normal_or_student(std::span<const ConvolutionTerm> terms) {
+    const std::vector<Centred> all = centred_distributions(terms);
+    const DistributionKind kind = all.front().distribution.kind;
+    return all.size() == 1 && (kind == DistributionKind::normal || kind == DistributionKind::student_t);
 }
 
 std::optional<ConvolvedOutput> expand_by_convolution(const MeasurementModel& model, const Propagation& propagation,

@@ -42,8 +42,8 @@ struct ConvolutionInterval {
 /// Half of its width: of symmetric terms the U with P(|Σ c_i (X_i − x_i)| ≤ U) = p.
 [[nodiscard]] double convolution_half_width(std::span<const ConvolutionTerm> terms, double coverage_probability);
 
-/// P(Σ c_i (X_i − x_i) ≤ x), for independent quantities: what a decision on conformity needs where k comes from the
-/// convolution.
+/// P(Σ c_i (X_i − x_i) ≤ x), for independent quantities: what a decision on conformity needs, because a k of t_p(ν_eff)
+/// that agrees at 95 % says nothing of other probabilities.
 ///
 /// Symmetric terms with known characteristic functions: a Fourier series, as in convolution_interval(). Others, and where
 /// that falls slowly: the widest term enters by its own distribution function, so that the edges of a rectangular
@@ -61,6 +61,14 @@ public:
 
     /// P(… < x), which differs where samples are the only term: each of them has a probability of its own.
     [[nodiscard]] double below(double x) const;
+
+    /// Whether possible values of the sum are listed, each with a probability of its own: of samples alone, if not too many.
+    [[nodiscard]] bool has_single_values() const;
+
+    /// What is smaller is not known to a hundredth of itself: 1e-9 of most symmetric terms, 1e-7 on cells of a grid, 1e-5
+    /// of symmetric ones whose t-distributions have so few degrees of freedom that the series is cut, 1/n of n samples with
+    /// 0.1 % of the variance or more. 0 of another single term.
+    [[nodiscard]] double least_probability() const;
 
 private:
     struct Table;
@@ -100,6 +108,13 @@ struct ConvolvedOutput {
 [[nodiscard]] std::optional<std::vector<ConvolutionTerm>> convolution_terms(const MeasurementModel& model,
                                                                             const Propagation& propagation,
                                                                             Eigen::Index output);
+
+/// True where that distribution is a normal one or a t-distribution, and no other: the contributions are normal, or a
+/// single one has degrees of freedom.
+[[nodiscard]] bool is_normal_or_student(const MeasurementModel& model, const Propagation& propagation,
+                                        Eigen::Index output);
+/// The same of terms that are known one by one.
+[[nodiscard]] bool is_normal_or_student(std::span<const ConvolutionTerm> terms);
 
 /// The numerical error comes from 16 batches of the draws: the standard deviation of their U, divided by 4.
 /// \return nothing when u(y) is 0, or there are no convolution_terms

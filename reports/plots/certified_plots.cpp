@@ -40,17 +40,43 @@ std::optional<double> number_of(std::string printed) {
 }
 
 /// What numbers of an axis are divided by, and the unit that they then have: angles that the table shows in degrees, minutes and
-/// seconds are drawn in degrees.
+/// seconds are drawn in degrees, where one of them has a degree. Errors of some seconds are drawn in seconds, as their U is
+/// stated.
 struct AxisUnit {
     double divisor = 1.0;
     std::string unit;
 };
-AxisUnit axis_unit(const std::string& form, const std::string& unit, const std::string& printed_unit) {
+AxisUnit axis_unit(const std::string& form, const std::string& unit, const std::string& printed_unit,
+                   const std::vector<std::optional<double>>& values) {
     constexpr double k_minutes = 60.0;  // of a degree
     const auto last = form.empty() || unit.empty() ? std::nullopt : certificate::last_part_of(unit);
-    return !last ? AxisUnit{.divisor = 1.0, .unit = printed_unit}
-                 : AxisUnit{.divisor = *last == text::AnglePart::seconds ? k_minutes * k_minutes : k_minutes,
-                            .unit = "\u00B0"};
+    const double degree = last == text::AnglePart::seconds ? k_minutes * k_minutes : k_minutes;
+    const auto has_degree = [&](const std::optional<double>& value) { return value && std::abs(*value) >= degree; };
+    return !last || std::none_of(values.begin(), values.end(), has_degree)
+               ? AxisUnit{.divisor = 1.0, .unit = printed_unit}
+               : AxisUnit{.divisor = degree, .unit = "\u00B0"};
+}
+
+std::vector<std::optional<double>> printed_values(const CertifiedColumn& column) {
+    std::vector<std::optional<double>> values;
+    for (const CertifiedValue& value : column.values) {
+        values.push_back(number_of(value.printed_value));
+    }
+    return values;
+}
+
+/// Whether values are one that scatters: what a power meter shows at 1 mW and ten frequencies.
+bool is_one_that_scatters(const std::vector<std::optional<double>>& values) {
+    constexpr double k_scatter = 0.05;
+    const auto [low, high] = std::minmax_element(values.begin(), values.end());
+    // What rises or falls from point to point is a range, as 293 K to 303 K; three values do so by chance in one case of three.
+    constexpr std::size_t k_few = 3;
+    const auto falls = [](const auto& a, const auto& b) { return *b < *a; };
+    const auto rises = [](const auto& a, const auto& b) { return *a < *b; };
+    const bool follows_points = std::adjacent_find(values.begin(), values.end(), falls) == values.end() ||
+                                std::adjacent_find(values.begin(), values.end(), rises) == values.end();
+    return !(follows_points && values.size() > k_few) &&
+           **high - **low < k_scatter * std::max(std::abs(**low), std::abs(**high));
 }
 
 /// Numbers of the points of a table with a layout that its results are drawn against, the first that differ from point to
@@ -61,6 +87,7 @@ const certificate::PointColumn* abscissa_of(const CertifiedTable& table) {
         return nullptr;
     }
     const certificate::PointColumn* constant = nullptr;
+    const certificate::PointColumn* scattered = nullptr;
     std::vector<const char*> roles{"nominal", "reference", "setting", "indication"};
     for (std::size_t i = 0; i < roles.size(); ++i) {
         for (const certificate::PointColumn& column : table.layout->columns) {
@@ -71,6 +98,11 @@ const certificate::PointColumn* abscissa_of(const CertifiedTable& table) {
             }
             const bool differs = std::any_of(column.values.begin(), column.values.end(),
                                              [&](const auto& v) { return v != column.values.front(); });
+            const bool is_measured = column.role == "reference" || column.role == "indication";
+            if (differs && is_measured && is_one_that_scatters(column.values)) {
+                scattered = scattered == nullptr ? &column : scattered;
+                continue;
+            }
             if (differs) {
                 return &column;
             }
@@ -80,7 +112,7 @@ const certificate::PointColumn* abscissa_of(const CertifiedTable& table) {
             constant = constant == nullptr ? &column : constant;  // all results upon one another
         }
     }
-    return constant;
+    return scattered != nullptr ? scattered : constant;
 }
 
 /// One limit of all values: a line where it is the same for all, else a bar at each value. Between the points nothing is
@@ -147,9 +179,11 @@ PlotPanel panel_of(const CertifiedTable& table, const CertifiedColumn& column, c
     CertifiedLimit upper;
     CertifiedLimit acceptance_lower;
     CertifiedLimit acceptance_upper;
-    const AxisUnit across =
-        abscissa != nullptr ? axis_unit(abscissa->form, abscissa->unit, abscissa->printed_unit) : AxisUnit();
-    const AxisUnit up = axis_unit(certificate::form_of_result(table, column.result), column.unit, column.printed_unit);
+    const AxisUnit across = abscissa != nullptr
+                                ? axis_unit(abscissa->form, abscissa->unit, abscissa->printed_unit, abscissa->values)
+                                : AxisUnit();
+    const AxisUnit up = axis_unit(certificate::form_of_result(table, column.result), column.unit, column.printed_unit,
+                                  printed_values(column));
     const auto divided = [](const std::optional<double>& number, double divisor) {
         return number ? std::optional(*number / divisor) : std::nullopt;
     };
@@ -204,7 +238,7 @@ std::optional<Plot> certified_plot(const CertifiedTable& table, const std::strin
     const auto axis_of = [&](const certificate::PointColumn& of) {
         const std::string name =
             !of.heading.empty() ? words.localised(of.heading).first() : words("point_table", of.role).first();
-        const std::string unit = axis_unit(of.form, of.unit, of.printed_unit).unit;
+        const std::string unit = axis_unit(of.form, of.unit, of.printed_unit, of.values).unit;
         return shortened(printable(name), 40) + (unit.empty() ? "" : " / " + unit);
     };
     const bool is_angle = table.argument->unit == "degree" || table.argument->printed_unit == "°";

@@ -1,5 +1,6 @@
 #include "reports/view/certificate_budget_sections.h"
 
+#include "certificate/point_names.h"
 #include "certificate/statement_of_uncertainty.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/unit.h"
@@ -75,6 +76,27 @@ std::string equation_for_people(const std::string& equation) {
     return out;
 }
 
+/// Of "min(1,2)", which would read as 1.2.
+bool has_comma_between_digits(const std::string& text) {
+    const auto is_digit = [&](std::size_t at) { return at < text.size() && text[at] >= '0' && text[at] <= '9'; };
+    for (std::size_t at = text.find(','); at != std::string::npos; at = text.find(',', at + 1)) {
+        if (at > 0 && is_digit(at - 1) && is_digit(at + 1)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/// With the decimal sign of the document. Where that is a comma, semicolons part the arguments of a function.
+std::string equation_for_people(const std::string& equation, const Wording& words) {
+    std::string shown = equation_for_people(equation);
+    const bool has_decimals = with_decimal_sign(shown, ",") != shown || has_comma_between_digits(shown);
+    if (has_decimals && words.decimal_sign() == ",") {
+        std::replace(shown.begin(), shown.end(), ',', ';');
+    }
+    return with_decimal_sign(shown, words.decimal_sign());
+}
+
 /// "K²", "(nm/K)²", "" of a unit for people.
 std::string squared(const std::string& people) {
     return people.empty() ? "" : is_simple(people) ? people + "²" : "(" + people + ")²";
@@ -134,10 +156,24 @@ Text meaning_of(const Result& r, const EvaluationRecord& record, const Wording& 
     return {};
 }
 
-/// "E[1] (error of indication)": a caption stands for itself.
+/// What the tables of a certificate show at the point of a result in place of its number; "" where they print that.
+Text point_in_tables(const Result& r, const EvaluationRecord& record, const Wording& words) {
+    if (r.quantity.empty() || !record.certificate) {
+        return {};
+    }
+    const auto points = certificate::identities_of_rows(record.certificate->tables);
+    const auto point = points.find(r.point);
+    const bool is_named = point != points.end() && point->second.results.contains(r.quantity);
+    return is_named ? point_in_words(point->second.name, words) : Text();
+}
+
+/// "E[1] (error of indication, 100 mV)": a caption stands for itself.
 Text name_in_caption(const Result& r, const EvaluationRecord& record, const Wording& words) {
-    const Text meaning = meaning_of(r, record, words);
-    return meaning.empty() ? Text(r.name) : Text(r.name + " (") + meaning + ")";
+    Text inside = meaning_of(r, record, words);
+    if (const Text point = point_in_tables(r, record, words); !point.empty()) {
+        inside += (inside.empty() ? Text() : words("document", "enumeration")) + point;
+    }
+    return inside.empty() ? Text(r.name) : Text(r.name + " (") + inside + ")";
 }
 
 /// Of what is reported: "interval" where Monte Carlo gives one that U cannot stand for.
@@ -396,7 +432,7 @@ void model(CertificateBuilder& builder, const Wording& words, const ModelSummary
             }
         }
         --left;
-        builder.formula(equation_for_people(equation));
+        builder.formula(equation_for_people(equation, words));
     }
     if (!m.unknowns.empty()) {
         std::string names;
@@ -810,7 +846,7 @@ void fit_data(CertificateBuilder& builder, const Wording& words, const FitSummar
 void fit(CertificateBuilder& builder, const Wording& words, const FitSummary& f, std::size_t number) {
     const bool weighted = f.method != "ordinary";
     builder.paragraph(words.fill("fit", {{"name", f.name}, {"method", words("value", "fit_method", f.method)}}));
-    builder.formula(equation_for_people(f.equation));
+    builder.formula(equation_for_people(f.equation, words));
     std::vector<Column> columns = {{words("label", "parameter"), ""},
                                    {words("label", "value"), "", true},
                                    {words("label", "u"), "", true},

@@ -365,18 +365,25 @@ void verdict_table(CertificateBuilder& builder, const Wording& words, const Agre
             numbers.push_back({words("certificate", key), in, std::move(texts)});
         }
     };
-    const std::string unit_of_values =
-        common(texts_of(decided, [](const Decided& d) {
-            return certificate::unit_in_form(d.column->printed_unit, d.form, d.column->unit);
-        })).value_or(unit);
-    number("value", unit_of_values, [](const Decided& d) { return d.in_form(d.value->printed_value); });
+    const auto own_unit_of = [](const Decided& d) {
+        return certificate::unit_in_form(d.column->printed_unit, d.form, d.column->unit);
+    };
+    const auto unit_of_all = common(texts_of(decided, own_unit_of));
+    // Values with the signs of their parts beside plain ones of the same unit: it stands at these and not above both.
+    const bool is_mixed = !unit.empty() && !unit_of_all;
+    const std::string unit_of_values = is_mixed ? "" : unit_of_all.value_or("");
+    const auto shown = [&](const Decided& d, const std::string& printed) {
+        const std::string own = is_mixed && !printed.empty() ? own_unit_of(d) : "";
+        return d.in_form(printed) + (own.empty() ? "" : "\u00A0" + own);
+    };
+    number("value", unit_of_values, [&](const Decided& d) { return shown(d, d.value->printed_value); });
     number("U_short", unit, [](const Decided& d) { return d.value->printed_U; });
-    number("TL", unit_of_values, [](const Decided& d) { return d.in_form(d.value->verdict->printed.lower); });
-    number("TU", unit_of_values, [](const Decided& d) { return d.in_form(d.value->verdict->printed.upper); });
+    number("TL", unit_of_values, [&](const Decided& d) { return shown(d, d.value->verdict->printed.lower); });
+    number("TU", unit_of_values, [&](const Decided& d) { return shown(d, d.value->verdict->printed.upper); });
     number("AL", unit_of_values,
-           [](const Decided& d) { return d.in_form(d.value->verdict->printed.acceptance_lower); });
+           [&](const Decided& d) { return shown(d, d.value->verdict->printed.acceptance_lower); });
     number("AU", unit_of_values,
-           [](const Decided& d) { return d.in_form(d.value->verdict->printed.acceptance_upper); });
+           [&](const Decided& d) { return shown(d, d.value->verdict->printed.acceptance_upper); });
     number("TUR", "", [](const Decided& d) { return d.value->verdict->printed.test_uncertainty_ratio; });
     number("p_c", "%", [](const Decided& d) { return d.value->verdict->printed.conformance_probability; });
     number("risk", "%", [](const Decided& d) { return d.value->verdict->printed.specific_risk; });

@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cstddef>
 #include <numeric>
 #include <optional>
@@ -388,6 +389,19 @@ std::vector<std::size_t> reading_order(const Certificate& certificate) {
     return order;
 }
 
+/// A clause whose last letter stays beside its number: "7.8.6.2 b".
+std::string kept_together(std::string clause) {
+    for (std::size_t at = clause.find(' '); at != std::string::npos; at = clause.find(' ', at + 1)) {
+        const bool one_letter =
+            at + 2 == clause.size() ||
+            (at + 2 < clause.size() && std::ispunct(static_cast<unsigned char>(clause[at + 2])) != 0);
+        if (one_letter && at > 0 && std::isdigit(static_cast<unsigned char>(clause[at - 1])) != 0) {
+            clause.replace(at, 1, "\u00A0");
+        }
+    }
+    return clause;
+}
+
 }  // namespace
 
 void findings_section(CertificateBuilder& builder, const Wording& words, const Certificate& certificate) {
@@ -406,8 +420,8 @@ void all_findings(CertificateBuilder& builder, const Wording& words, const Certi
     Rows lines;
     for (const Finding& f : certificate.findings) {
         const Text severity = words("finding_severity", k_severities.at(static_cast<std::size_t>(f.severity)));
-        lines.push_back(
-            {f.id, f.clause, severity, words.sentence(f.where), words.sentence(f.what), words.sentence(f.action)});
+        lines.push_back({f.id, kept_together(f.clause), severity, words.sentence(f.where), words.sentence(f.what),
+                         words.sentence(f.action)});
     }
     builder.table("findings", words("statement", "findings_table"),
                   {{words("certificate", "finding"), ""},

@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
+#include "audit/budget_outcome.h"
+#include "audit/sources/record_subject.h"
 #include "evaluation/evaluate_job.h"
 #include "tests/support/json_schema.h"
 
@@ -211,6 +213,62 @@ TEST(AuditOfAnEvaluation, CorrectsToTheUThatTheCorrectedJobHas) {
     }
     EXPECT_GT(convolved, 20);
     EXPECT_GT(changed, 10);
+}
+
+/// What the audit decides by probability of a record of ours is what the certificate says, or nothing: correlated inputs and
+/// shapes that rows do not tell included.
+TEST(AuditOfAnEvaluation, DecidesByProbabilityAsTheCertificateOrNotAtAll) {
+    std::mt19937 random(30112026);
+    std::uniform_real_distribution<double> size(0.2, 1.0), limit(1.2, 3.2), correlation(-0.95, 0.95);
+    int decided = 0, silent = 0, failed = 0;
+    for (int i = 0; i < 100; ++i) {
+        const double u = size(random);
+        json inputs = {{"a", {{"value", 10}, {"unit", "mm"}, {"u", u}}},
+                       {"b", {{"value", 0}, {"unit", "mm"}, {"u", size(random)}}},
+                       {"c", {{"value", 0}, {"unit", "mm"}, {"half_width", size(random)}}}};
+        json job = {{"schema", "gumcert/job/1"}, {"kind", "budget"}, {"model", {"y = a + b + c"}}};
+        switch (i % 5) {
+            case 0:
+                job["correlations"] = json::array({json::array({"a", "b", correlation(random)})});
+                break;
+            case 1:
+                inputs["c"] = {{"unit", "mm"}, {"distribution", {{"kind", "gamma"}, {"shape", 2}, {"scale", 0.3 * u}}}};
+                break;
+            case 2:
+                inputs["c"]["distribution"] = "trapezoidal";
+                inputs["c"]["beta"] = 0.3;
+                break;
+            case 3:
+                inputs["b"]["nu"] = 4;
+                break;
+            default:
+                inputs["c"]["distribution"] = "arcsine";
+        }
+        job["inputs"] = inputs;
+        const bool by_proof = i % 2 == 1;
+        job["certificate"] = {
+            {"status", "not_accredited"},
+            {"specifications", json::array({{{"id", "s"},
+                                             {"results", {"y"}},
+                                             {"upper", 10.0 + limit(random) * 2.0 * u},
+                                             {"unit", "mm"},
+                                             {"document", "Drawing 1234"},
+                                             {"rule", by_proof ? json({{"id", "DR-08"}, {"probability", 0.95}})
+                                                               : json({{"id", "DR-07"}, {"probability", 0.025}})}}})}};
+        const Evaluation one = evaluated(job);
+        const auto& verdict = one.record.certificate->tables.at(0).columns.at(0).values.at(0).verdict;
+        ASSERT_TRUE(verdict) << job;
+        EXPECT_FALSE(has_finding(one, "audit-D04")) << job;
+        const audit::AuditSubject subject = audit::subject_of(one.record, "record.json");
+        const std::string again = audit::evaluate(subject.budgets.at(0)).verdict;
+        EXPECT_TRUE(again.empty() || again == verdict->verdict) << again << ", not " << verdict->verdict << "\n" << job;
+        decided += again.empty() ? 0 : 1;
+        silent += again.empty() ? 1 : 0;
+        failed += verdict->verdict == "fail" || verdict->verdict == "undetermined" ? 1 : 0;
+    }
+    EXPECT_GT(decided, 30);
+    EXPECT_GT(silent, 50) << "correlated beside another shape, gamma, trapezoid";
+    EXPECT_GT(failed, 10);
 }
 
 TEST(AuditOfAnEvaluation, ADocumentShowsTheDigest) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -80,28 +81,45 @@ std::optional<certificate::InputValues> values_of(const jobs::BudgetJob& job, co
     return certificate::InputValues{.unit = column.unit, .values = column.values};
 }
 
-/// P(Y ≤ x) and P(Y < x) of an output whose k comes from the convolution, x in its unit.
-void add_convolution(const gum::BudgetPointResult& point, Eigen::Index output, const gum::Unit& unit,
-                     const std::string& name, certificate::CapabilityInputs& inputs) {
-    const auto terms = gum::convolution_terms(*point.model, point.propagation, output);
+/// The distribution of an output by the convolution of its contributions, x in its unit.
+certificate::ResultDistribution convolved(const gum::MeasurementModel& model, const gum::Propagation& propagation,
+                                          Eigen::Index output, const gum::Unit& unit) {
+    const auto terms = gum::convolution_terms(model, propagation, output);
     if (!terms) {
-        return;
+        return {};
     }
     const gum::ConvolutionDistribution distribution(*terms);
-    const double centre = point.propagation.value(output);
-    // A limit that is a possible value differs from it by roundings alone.
+    const double centre = propagation.value(output);
+    if (!distribution.has_single_values()) {
+        return {.function = [=](double x) { return distribution(unit.to_si(x) - centre); },
+                .below = {},
+                .least_probability = distribution.least_probability()};
+    }
+    // A limit that is a possible value differs from it by roundings alone. Of other distributions the same roundings would
+    // move a limit, where u is small against the value.
     constexpr double k_roundings = 8.0;
     const auto rounding = [centre](double x) {
         return k_roundings * std::numeric_limits<double>::epsilon() * std::max(std::abs(x), std::abs(centre));
     };
-    inputs.distributions.emplace(name, [=](double x) {
-        const double at = unit.to_si(x);
-        return distribution(at - centre + rounding(at));
-    });
-    inputs.distributions_below.emplace(name, [=](double x) {
-        const double at = unit.to_si(x);
-        return distribution.below(at - centre - rounding(at));
-    });
+    return {.function =
+                [=](double x) {
+                    const double at = unit.to_si(x);
+                    return distribution(at - centre + rounding(at));
+                },
+            .below =
+                [=](double x) {
+                    const double at = unit.to_si(x);
+                    return distribution.below(at - centre - rounding(at));
+                },
+            .least_probability = distribution.least_probability()};
+}
+
+/// Whether the law of propagation gives a k of an output, and its distribution is another one than that of this k.
+bool needs_convolution(const gum::BudgetPointResult& point, std::size_t output) {
+    const std::string& coverage = point.outputs[output].coverage;
+    return coverage == "convolution" ||
+           ((coverage == "normal" || coverage == "student_t") &&
+            !gum::is_normal_or_student(*point.model, point.propagation, static_cast<Eigen::Index>(output)));
 }
 
 }  // namespace
@@ -126,6 +144,7 @@ certificate::CapabilityInputs capability_inputs(const jobs::BudgetJob& job, cons
     const std::vector<std::string> names = gum::budget_result_names(job, result);
     auto next = names.begin();
     for (const gum::BudgetPointResult& point : result.points) {
+        std::shared_ptr<const gum::Propagation> propagation;
         for (std::size_t i = 0; i < point.outputs.size(); ++i) {
             const std::string& name = *next++;
             const gum::Unit& unit = jobs::result_unit(job, point, i);
@@ -144,8 +163,13 @@ certificate::CapabilityInputs capability_inputs(const jobs::BudgetJob& job, cons
                                                                 .streams = point.streams,
                                                                 .trials = point.outputs[i].trials,
                                                                 .threads = threads});
-            } else if (point.outputs[i].coverage == "convolution") {
-                add_convolution(point, output, unit, name, inputs);
+            } else if (needs_convolution(point, i)) {
+                if (!propagation) {  // one copy for all that ask it
+                    propagation = std::make_shared<const gum::Propagation>(point.propagation);
+                }
+                inputs.distributions.emplace(name, [model = point.model, propagation, output, unit] {
+                    return convolved(*model, *propagation, output, unit);
+                });
             }
         }
     }

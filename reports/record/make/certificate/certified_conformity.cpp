@@ -91,6 +91,7 @@ std::optional<DecisionNumbers> numbers_of(const CertifiedValue& from, const Know
                 };
             };
             numbers.trials = static_cast<double>(known.trials);
+            numbers.least_probability = known.least_probability;
             numbers.distribution = as_it_is ? known.function : stretched(known.function);
             if (known.below) {
                 numbers.distribution_below = as_it_is ? known.below : stretched(known.below);

@@ -14,6 +14,7 @@ struct KnownDistribution {
     std::function<double(double)> below;     ///< P(Y < x), where single values have a probability; empty: P(Y ≤ x)
     std::string note;                        ///< English sentence for the verdict; "" without
     std::uint64_t trials = 0;                ///< of Monte Carlo, that the function counts; 0: it is not from trials
+    double least_probability = 0.0;          ///< the function tells nothing of smaller ones
 };
 
 /// Decides on conformity of one value, twice: with the unrounded numbers, and with those that are printed.

@@ -423,13 +423,21 @@ KnownDistribution Certifier::known_distribution(const CertifiedValue& value, con
                     "Probabilities are those of a normal distribution with the stated U and k; the Monte Carlo "
                     "trials were not kept."};
     }
-    if (result != nullptr && result->coverage == "convolution") {
-        if (const auto found = inputs_.distributions.find(result->name); found != inputs_.distributions.end()) {
-            const auto below = inputs_.distributions_below.find(result->name);
-            return {.function = found->second,
-                    .below = below != inputs_.distributions_below.end() ? below->second : found->second,
-                    .note = "Probabilities are those of the convolution of all input distributions."};
+    if (result == nullptr) {
+        return {};
+    }
+    // Also where k is that of t_p(ν_eff): a k that agrees at 95 % says nothing of the tails.
+    if (const auto found = inputs_.distributions.find(result->name); found != inputs_.distributions.end()) {
+        certificate::ResultDistribution known = found->second();
+        if (!known.function) {
+            return {};
         }
+        return {.function = std::move(known.function),
+                .below = std::move(known.below),
+                .note = "Probabilities are those of the convolution of all input distributions.",
+                .least_probability = known.least_probability};
+    }
+    if (result->coverage == "convolution") {
         return {.function = {},
                 .below = {},
                 .note =

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
@@ -432,21 +433,28 @@ reports::EvaluationRecord circle_closure_record(const CircleClosureJob& job, con
     return record;
 }
 
-std::map<std::string, std::function<double(double)>> circle_closure_distributions(
+std::map<std::string, std::function<certificate::ResultDistribution()>> circle_closure_distributions(
     const CircleClosureJob& job, const gum::CircleClosureResult& result) {
-    std::map<std::string, std::function<double(double)>> distributions;
+    std::map<std::string, std::function<certificate::ResultDistribution()>> distributions;
     const std::vector<std::string> names = circle_closure_result_names(job);
+    const auto propagation = std::make_shared<const gum::Propagation>(result.propagation);
     for (std::size_t i = 0; i < names.size(); ++i) {
-        if (result.coverage[i].coverage != "convolution") {
+        const bool is_convolution = result.coverage[i].coverage == "convolution";
+        if (!is_convolution && gum::is_normal_or_student(*result.model, *propagation, at(i))) {
             continue;
         }
-        const auto terms = gum::convolution_terms(*result.model, result.propagation, at(i));
-        if (terms) {
+        const auto make = [model = result.model, propagation, i, unit = job.unit]() -> certificate::ResultDistribution {
+            const auto terms = gum::convolution_terms(*model, *propagation, at(i));
+            if (!terms) {
+                return {};
+            }
             const gum::ConvolutionDistribution distribution(*terms);
-            const double centre = result.propagation.value(at(i));
-            distributions.emplace(names[i],
-                                  [=, unit = job.unit](double x) { return distribution(unit.to_si(x) - centre); });
-        }
+            const double centre = propagation->value(at(i));
+            return {.function = [=](double x) { return distribution(unit.to_si(x) - centre); },
+                    .below = {},
+                    .least_probability = distribution.least_probability()};
+        };
+        distributions.emplace(names[i], make);
     }
     return distributions;
 }

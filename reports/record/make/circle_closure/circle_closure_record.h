@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "certificate/capability_inputs.h"
 #include "gum/circle_closure/evaluate_circle_closure.h"
 #include "jobs/circle_closure/circle_closure_job.h"
 #include "reports/record/evaluation_record.h"
@@ -27,9 +28,9 @@ inline constexpr const char* k_artefact_quantity = "P";
                                                               const std::vector<reports::InputFile>& files,
                                                               const std::string& covariance_file);
 
-/// P(Y ≤ x) of the results whose k comes from a convolution, by their names; x in the unit of the job. For decisions on
-/// conformity.
-[[nodiscard]] std::map<std::string, std::function<double(double)>> circle_closure_distributions(
+/// Of the results that are neither normal nor have a t-distribution, by their names; x in the unit of the job. For
+/// decisions on conformity.
+[[nodiscard]] std::map<std::string, std::function<certificate::ResultDistribution()>> circle_closure_distributions(
     const jobs::CircleClosureJob& job, const gum::CircleClosureResult& result);
 
 /// The covariance of all results as CSV, in the square of their unit.

@@ -41,6 +41,38 @@ ConformityVerdict verdict(DecisionRule rule, double y, const Parameters& paramet
     return decide(rule, y, parameters, limits).verdict;
 }
 
+// A numerical distribution ends somewhere: what lies further out is no risk of 0.
+TEST(DecideConformity, SaysNothingOfProbabilitiesThatADistributionDoesNotKnow) {
+    MeasuredValue y = normal_value(9.5, 0.05);
+    const Distribution normal = Distribution::normal(9.5, 0.05);
+    y.least_probability = 1e-9;
+    y.distribution = [&](double x) {
+        const double below = lower_tail_probability(normal, x);
+        return below < 1e-9 ? 0.0 : below > 1.0 - 1e-9 ? 1.0 : below;
+    };
+    for (const double R : {1e-3, 1e-8}) {
+        const ConformityDecision known =
+            decide_conformity(DecisionRule::specific_risk, {.probability = R}, k_limits, y);
+        EXPECT_EQ(known.verdict, pass);
+        EXPECT_NEAR(known.guard_band, 0.05 * upper_quantile(Distribution::normal(0.0, 1.0), R), 1e-6);
+    }
+    for (const auto& [rule, parameters] : std::vector<std::pair<DecisionRule, Parameters>>{
+             {DecisionRule::specific_risk, {.probability = 1e-10}},
+             {DecisionRule::iso_14253_1, {.probability = 1.0 - 1e-10}},
+             {DecisionRule::z540_3, {.probability = 1e-10, .population_deviation = 0.2, .method = "4"}}}) {
+        const ConformityDecision unknown = decide_conformity(rule, parameters, k_limits, y);
+        EXPECT_EQ(unknown.verdict, not_applicable);
+        EXPECT_EQ(unknown.guard_band, 0.0);
+        EXPECT_FALSE(unknown.acceptance.lower || unknown.acceptance.upper || unknown.largest_specific_risk);
+        EXPECT_NE(unknown.note.find("not known for so small a probability"), std::string::npos) << unknown.note;
+    }
+    // y ± U outside of the limits needs no tail; 1 − 1e-10 is not proven by it.
+    y.value = 20.0;
+    EXPECT_EQ(decide_conformity(DecisionRule::specific_risk, {.probability = 1e-10}, k_limits, y).verdict, fail);
+    EXPECT_EQ(decide_conformity(DecisionRule::iso_14253_1, {.probability = 1.0 - 1e-10}, k_limits, y).verdict,
+              not_applicable);
+}
+
 /// Both limits of one value are limits of the other: the mirror image of a situation has the same verdict.
 ConformityDecision mirrored(DecisionRule rule, const Parameters& parameters, const ToleranceLimits& limits,
                             MeasuredValue y) {
@@ -534,6 +566,17 @@ TEST(DecideConformity, TrialsDecideOnlyWhereTheirNumberDoes) {
         decide_conformity(DecisionRule::specific_risk, {.probability = 0.05}, k_upper, value_with_risk(0.043, 10000.0))
             .verdict,
         pass);
+    // Of a risk of which no trial is expected, the outermost trial is no limit of acceptance; one far beyond it fails.
+    for (const double trials : {1e6, 1e8}) {
+        for (const double risk : {1e-12, 1e-3}) {
+            const ConformityDecision d = decide_conformity(DecisionRule::specific_risk, {.probability = 1e-7}, k_upper,
+                                                           value_with_risk(risk, trials));
+            EXPECT_EQ(d.verdict, risk > 1e-7 ? fail : trials < 1e7 ? not_applicable : pass);
+            EXPECT_EQ(d.acceptance.upper.has_value(), trials > 1e7);
+            EXPECT_EQ(d.largest_specific_risk.has_value(), trials > 1e7);
+            EXPECT_EQ(d.guard_band > 0.0, trials > 1e7);
+        }
+    }
     EXPECT_EQ(decide_conformity(DecisionRule::guard_band_u, {}, k_upper, value_with_risk(0.05, 10.0)).note, "")
         << "a rule with U does not ask for the probability";
 }

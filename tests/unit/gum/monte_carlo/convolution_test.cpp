@@ -327,6 +327,73 @@ TEST(ConvolutionDistribution, HasTheTailsOfSeveralFewReadings) {
                 0.5, 1e-6);
 }
 
+// A guard band for a risk of 1e-7 is as right as one for 5 %, or it is said that it cannot be known. P(T + B > z) as the mean of
+// the tail of T over the distribution of a rectangular and a normal term, by the trapezoidal rule, which is exact for what
+// falls off like a normal distribution.
+TEST(ConvolutionDistribution, HasItsTailsDownToTheProbabilityThatItNames) {
+    std::mt19937_64 random(20261130);
+    std::uniform_real_distribution<double> log_of_width(-1.5, 0.5);
+    for (const double nu : {1.0, 2.0, 3.0, 5.0, 9.0, 30.0, 1e3}) {
+        for (int i = 0; i < 4; ++i) {
+            const double a = std::pow(10.0, log_of_width(random));
+            const double s = std::pow(10.0, log_of_width(random));
+            const Distribution normal = Distribution::normal(0.0, 0.5);
+            const Distribution student = Distribution::student_t(0.0, s, nu);
+            const ConvolutionDistribution sum(std::vector<ConvolutionTerm>{
+                {1.0, normal}, {-0.5, Distribution::uniform(0.0, 2.0 * a)}, {1.0, student}});
+            EXPECT_LE(sum.least_probability(), 1e-7);
+            const double step = 0.1 * std::min(0.5, s);
+            const auto beyond = [&](double z) {
+                double total = 0.0;
+                for (double b = -a - 6.0; b <= a + 6.0; b += step) {
+                    const double density =
+                        (upper_tail_probability(normal, b - a) - upper_tail_probability(normal, b + a)) / (2.0 * a);
+                    total += step * density * upper_tail_probability(student, z - b);
+                }
+                return total;
+            };
+            for (double z = 0.5;; z *= 1.3) {
+                const double exact = beyond(z);
+                if (exact < sum.least_probability()) {
+                    break;
+                }
+                EXPECT_TRUE(agrees(sum(-z), exact, 0.01)) << nu << ' ' << a << ' ' << s << ' ' << z;
+            }
+        }
+    }
+    const auto antiderivative = [](double x) { return x * std::atan(x) - 0.5 * std::log1p(x * x); };
+    const Distribution cauchy = Distribution::student_t(0.0, 1.0, 1.0);
+    for (const double a : {0.5, 20.0}) {
+        const ConvolutionDistribution sum(
+            std::vector<ConvolutionTerm>{{0.7, cauchy}, {0.3, cauchy}, {1.0, Distribution::uniform(0.0, a)}});
+        for (double x = a; x < 1e4; x *= 3.0) {
+            const double outside = 0.5 - (antiderivative(x + a) - antiderivative(x - a)) / (2.0 * a * std::numbers::pi);
+            EXPECT_GE(outside, sum.least_probability());
+            EXPECT_TRUE(agrees(sum(-x), outside, 0.01)) << a << ' ' << x;
+        }
+    }
+    EXPECT_EQ(ConvolutionDistribution(std::vector<ConvolutionTerm>{{1.0, cauchy}}).least_probability(), 0.0);
+    const Distribution endless = Distribution::student_t(0.0, 1.0, 0.3);
+    EXPECT_GT(ConvolutionDistribution(std::vector<ConvolutionTerm>{{1.0, endless}, {1.0, cauchy}}).least_probability(),
+              0.01);
+    const auto samples = std::make_shared<std::vector<double>>(std::vector<double>{-2.0, 0.0, 0.0, 2.0});
+    const Distribution four{.kind = DistributionKind::empirical, .location = 0.0, .scale = 1.0, .samples = samples};
+    EXPECT_EQ(ConvolutionDistribution(std::vector<ConvolutionTerm>{{1.0, four}, {1.0, cauchy}}).least_probability(),
+              0.25);
+}
+
+TEST(IsNormalOrStudent, HoldsForOneOfThemAlone) {
+    const Distribution normal = Distribution::normal(0.0, 0.5);
+    const Distribution student = Distribution::student_t(0.0, 1.0, 4.0);
+    const Distribution uniform = Distribution::uniform(0.0, 1.0);
+    using Terms = std::vector<ConvolutionTerm>;
+    EXPECT_TRUE(is_normal_or_student(Terms{{1.0, normal}, {2.0, normal}}));
+    EXPECT_TRUE(is_normal_or_student(Terms{{1.0, student}, {0.0, uniform}}));
+    EXPECT_FALSE(is_normal_or_student(Terms{{1.0, student}, {1.0, normal}}));
+    EXPECT_FALSE(is_normal_or_student(Terms{{1.0, student}, {1.0, student}}));
+    EXPECT_FALSE(is_normal_or_student(Terms{{1.0, uniform}}));
+}
+
 // Samples alone: each possible value has a probability of its own.
 TEST(ConvolutionDistribution, CountsSamples) {
     const auto samples = std::make_shared<std::vector<double>>(std::vector<double>{-2.0, 0.0, 0.0, 2.0});

@@ -307,6 +307,20 @@ TEST(BudgetCertificate, EquationsAreWrittenAsMathematics) {
         HasSubstr("= <i>l</i><sub>s</sub> + <i>d</i> − <i>l</i><sub>s</sub>·(<i>d</i><sub>α</sub>·<i>θ</i> + "));
 }
 
+TEST(BudgetCertificate, EquationsHaveTheDecimalSignOfTheDocument) {
+    EvaluationRecord record = test::sample_budget_record();
+    record.model->equations = {"y = max(1.5*a, 0.25) - 1e-5", "z = max(a, b)", "v = min(1,2)"};
+    const auto dump = [&](const char* language) {
+        std::ifstream file(std::string(GUMCERT_SOURCE_DIR) + "/templates/wording/" + language + ".json");
+        return certificate_view(record, Wording(json::parse(file))).dump();
+    };
+    EXPECT_THAT(dump("de"), HasSubstr("y = max(1,5·a; 0,25) − 1e-5"));
+    EXPECT_THAT(dump("de"), HasSubstr("z = max(a, b)"));
+    EXPECT_THAT(dump("de"), HasSubstr("v = min(1;2)")) << "not 1.2";
+    EXPECT_THAT(dump("en"), HasSubstr("v = min(1,2)"));
+    EXPECT_THAT(dump("en"), HasSubstr("y = max(1.5·a, 0.25) − 1e-5"));
+}
+
 TEST(BudgetCertificate, HtmlAndTextShowTheSameNumbers) {
     for (const auto& [record, rows] : {std::pair(test::sample_budget_record(), k_end_gauge),
                                        std::pair(test::sample_two_results_record(), k_two_results)}) {

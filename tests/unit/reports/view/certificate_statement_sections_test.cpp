@@ -425,8 +425,9 @@ TEST(CertificateStatement, ListsFindingsOnDraftsOnly) {
     };
     record.certificate->findings = test::drafted(record).certificate->findings;
     EXPECT_THAT(sections_of(record, findings), IsEmpty());
-    EXPECT_THAT(text_of(sections_of(test::drafted(record), findings), "findings"),
-                HasSubstr("R07-g|ISO/IEC 17025:2017, 7.8.2.1 g|critical|/item/serial_number|neither a serial number"));
+    EXPECT_THAT(
+        text_of(sections_of(test::drafted(record), findings), "findings"),
+        HasSubstr("R07-g|ISO/IEC 17025:2017, 7.8.2.1\u00A0g|critical|/item/serial_number|neither a serial number"));
 }
 
 TEST(CertifiedPlot, ShowsValuesBarsAndLimits) {

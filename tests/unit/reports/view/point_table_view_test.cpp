@@ -266,6 +266,46 @@ TEST(PointTableView, ResultsAreDrawnAgainstTheNominalValue) {
     }
 }
 
+// A power sensor: the reference is 1 mW at all frequencies, and scatters by what the source does.
+TEST(PointTableView, ResultsAreNotDrawnAgainstAScatter) {
+    const json texts = json::parse(read_asset(assets().templates / "wording" / "en.json"));
+    const Wording words(texts);
+    certificate::Certificate certificate = table_of_points();
+    std::vector<certificate::PointColumn>& columns = certificate.tables[0].layout->columns;
+    columns = {columns[0], columns[0]};
+    columns[0].role = columns[0].name = "reference";
+    columns[1].role = columns[1].name = "setting";
+    columns[1].unit = columns[1].printed_unit = "Hz";
+    columns[1].values = {10.0, 40.0, 160.0};
+    const auto label = [&] { return certified_plot(certificate.tables[0], "T.", words, "p")->x_label; };
+    columns[0].values = {1.001, 1.0024, 0.9996};
+    EXPECT_EQ(label(), "Setting / Hz");
+    columns[0].values = {1.0, 5.0, 10.0};
+    EXPECT_EQ(label(), "Reference value / V");
+    columns[0].values = {1.001, 1.0024, 0.9996};
+    columns[1].values = {10.0, 10.0, 10.0};
+    EXPECT_EQ(label(), "Reference value / V") << "there is nothing better";
+}
+
+// 3″ of an error are 0.0008°: nobody reads that beside U in seconds.
+TEST(PointTableView, AnglesAreDrawnInDegreesWhereOneHasADegree) {
+    const json texts = json::parse(read_asset(assets().templates / "wording" / "en.json"));
+    const Wording words(texts);
+    certificate::Certificate certificate = table_of_points();
+    certificate::CertifiedTable& table = certificate.tables[0];
+    table.columns[0].unit = "arcsec";
+    table.columns[0].printed_unit = "″";
+    for (certificate::ShownColumn& shown : table.layout->shown) {
+        shown.form = shown.show == "value" ? "sexagesimal" : "";
+    }
+    const auto panel = [&] { return certified_plot(table, "T.", words, "p")->panels.at(0); };
+    EXPECT_THAT(panel().y_label, testing::EndsWith(" / ″"));
+    EXPECT_EQ(panel().series[0].points[0].y, std::stod(table.columns[0].values[0].printed_value));
+    table.columns[0].values[2].printed_value = "7200.0";
+    EXPECT_THAT(panel().y_label, testing::EndsWith(" / °"));
+    EXPECT_EQ(panel().series[0].points[2].y, 2.0);
+}
+
 /// A limit is drawn where it holds, and nowhere else: as a line where all values have the same, else at each point.
 TEST(PointTableView, NoPlotStatesALimitThatDoesNotHold) {
     const json texts = json::parse(read_asset(assets().templates / "wording" / "en.json"));

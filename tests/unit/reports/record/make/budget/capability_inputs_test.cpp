@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <map>
 #include <string>
 
+#include "gum/distribution_quantile.h"
 #include "tests/support/budget_campaign.h"
 #include "tests/support/sample_certificate.h"
 
@@ -105,12 +107,55 @@ TEST(CapabilityInputs, HoldTheTrialsWhereMonteCarloIsReported) {
     EXPECT_NEAR(low, 0.02275, 2.0 / 30000.0);
 }
 
+// Three readings beside a rectangular contribution: what the one adds to k the other takes off, and k of t_p(ν_eff) agrees
+// within 1 %. Five u away are 0.086 %, where t_p(ν_eff) has 0.00003 %.
+TEST(CapabilityInputs, HoldTheDistributionWhereKAgreesWithThatOfT) {
+    const std::string normal = R"("x": {"value": 10, "unit": "mm", "u": 0.03})";
+    const std::string others = R"(, "d": {"value": 0, "unit": "mm", "half_width": 0.12},
+                                    "r": {"value": 0, "unit": "mm", "u": 0.015, "nu": 2})";
+    const jobs::BudgetJob job = certified_budget(normal + others, "y = x + d + r");
+    const gum::BudgetResult result = gum::evaluate_budget(job, 1);
+    EXPECT_EQ(result.points.at(0).outputs.at(0).coverage, "student_t");
+    const certificate::CapabilityInputs inputs = capability_inputs(job, result);
+    ASSERT_EQ(inputs.distributions.size(), 1U);
+    const certificate::ResultDistribution y = inputs.distributions.at("y")();
+    const gum::Unit unit = result.points.at(0).outputs.at(0).unit;
+    const gum::Distribution of_x = gum::Distribution::normal(0.0, 0.03);
+    const double far = 5.0 * std::sqrt(0.03 * 0.03 + 0.12 * 0.12 / 3.0 + 0.015 * 0.015);
+    double total = 0.0;
+    for (double b = -0.5; b <= 0.5; b += 0.001) {
+        const double density =
+            (gum::upper_tail_probability(of_x, b - 0.12) - gum::upper_tail_probability(of_x, b + 0.12)) / 0.24;
+        total += 0.001 * density * gum::upper_tail_probability(gum::Distribution::student_t(0.0, 0.015, 2.0), far - b);
+    }
+    EXPECT_NEAR(y.function(unit.from_si(1e-3 * (10.0 - far))), total, 1e-9);
+    EXPECT_NEAR(total, 8.6e-4, 0.05e-4);
+    EXPECT_LT(y.least_probability, 1e-8);
+    // One of them alone is what its k says.
+    for (const std::string& alone : {normal, std::string(R"("x": {"value": 10, "unit": "mm", "u": 0.02, "nu": 2})")}) {
+        const jobs::BudgetJob one = certified_budget(alone, "y = x");
+        EXPECT_TRUE(capability_inputs(one, gum::evaluate_budget(one, 1)).distributions.empty()) << alone;
+    }
+}
+
+// 10 MHz with u of 6e-8 Hz: roundings of a limit that is a possible value would move it by a third of u.
+TEST(CapabilityInputs, MoveNoLimitOfAContinuousDistribution) {
+    const jobs::BudgetJob job = certified_budget(
+        R"("x": {"value": 1e7, "unit": "mm", "u": 5e-8}, "d": {"value": 0, "unit": "mm", "half_width": 3e-8})",
+        "y = x + d");
+    const gum::BudgetResult result = gum::evaluate_budget(job, 1);
+    const certificate::ResultDistribution y = capability_inputs(job, result).distributions.at("y")();
+    const gum::Unit unit = result.points.at(0).outputs.at(0).unit;
+    EXPECT_FALSE(y.below);
+    EXPECT_NEAR(y.function(unit.from_si(1e-3 * 1e7)), 0.5, 1e-6);
+}
+
 TEST(CapabilityInputs, HoldTheDistributionOfAConvolution) {
     const jobs::BudgetJob job =
         certified_budget(R"("x": {"value": 10, "unit": "mm", "half_width": 0.1, "distribution": "uniform"})", "y = x");
     const certificate::CapabilityInputs inputs = capability_inputs(job, gum::evaluate_budget(job, 1));
     ASSERT_EQ(inputs.distributions.size(), 1U);
-    const auto& P = inputs.distributions.at("y");  // x in millimetres, or in what the model gives
+    const auto P = inputs.distributions.at("y")().function;  // x in millimetres, or in what the model gives
     const gum::Unit unit = gum::evaluate_budget(job, 1).points.at(0).outputs.at(0).unit;
     const auto at = [&](double mm) { return P(unit.from_si(1e-3 * mm)); };
     EXPECT_NEAR(at(10.0), 0.5, 1e-6);

@@ -953,11 +953,20 @@ TEST(Certify, TakesTheDistributionOfAConvolution) {
     record.results[0].u = 0.1 / std::sqrt(3.0);
     record.results[0].k = 0.0954 / record.results[0].u;
     certificate::CapabilityInputs inputs;
-    inputs.distributions["l"] = [](double x) { return std::clamp((x - 9.87) / 0.2, 0.0, 1.0); };
+    inputs.distributions["l"] = [] {
+        return certificate::ResultDistribution{
+            .function = [](double x) { return std::clamp((x - 9.87) / 0.2, 0.0, 1.0); }, .below = {}};
+    };
     const CertificateData data = data_with_rule("DR-01", 9.0, 10.0, "m");
     const Verdict exact = *certified(record, data, {}, inputs).verdict;
     EXPECT_NEAR(exact.conformance_probability, 0.65, 1e-12);
     EXPECT_THAT(exact.note, HasSubstr("convolution"));
+    // Also where k is that of t_p(ν_eff): it agrees at 95 % and nowhere else.
+    EvaluationRecord with_t = record;
+    with_t.results[0].coverage = "student_t";
+    const Verdict of_terms = *certified(with_t, data_with_rule("DR-01", 9.0, 10.0, "m"), {}, inputs).verdict;
+    EXPECT_NEAR(of_terms.conformance_probability, 0.65, 1e-12);
+    EXPECT_EQ(of_terms.note, exact.note);
     const Verdict normal = *certified(record, data).verdict;
     EXPECT_THAT(normal.note, HasSubstr("normal distribution"));
     EXPECT_NEAR(normal.conformance_probability, 0.698, 1e-3);  // Φ(0.03 / 0.057735)
@@ -1265,7 +1274,10 @@ TEST(Certify, WidensTheKnownDistributionWhereTheCapabilityIsStated) {
     record.results[0].u = 0.1 / std::sqrt(3.0);
     record.results[0].k = 0.0954 / record.results[0].u;
     certificate::CapabilityInputs inputs;
-    inputs.distributions["l"] = [](double x) { return std::clamp((x - 9.87) / 0.2, 0.0, 1.0); };
+    inputs.distributions["l"] = [] {
+        return certificate::ResultDistribution{
+            .function = [](double x) { return std::clamp((x - 9.87) / 0.2, 0.0, 1.0); }, .below = {}};
+    };
     CertificateData data = data_with(test::capability_of_one_value(0.1908, "m"));
     data.specifications = data_with_rule("DR-01", 9.0, 10.0, "m").specifications;
     const CertifiedValue v = certified(record, data, {}, inputs);
