@@ -334,8 +334,9 @@ TEST_F(ArchiveOfStandards, AreSameWhereTheyWouldStateTheSame) {
         if (value.is_string()) {
             changes.emplace_back(pointer, value.get<std::string>() + "9");
         } else if (value.is_number() && pointer.ends_with("/value")) {
-            changes.emplace_back(pointer, value.get<double>() * (1.0 + 2e-8));
-            changes.emplace_back(pointer, value.get<double>() * (1.0 + 2e-9));
+            for (const double relative : {2e-8, 1e-8, 2e-9}) {
+                changes.emplace_back(pointer, value.get<double>() * (1.0 + relative));
+            }
         } else if (value.is_number() && pointer.starts_with("/calibrations/3/")) {  // the one in use
             changes.emplace_back(pointer, value.get<double>() * 1.02);
         }
