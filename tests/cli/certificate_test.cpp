@@ -151,7 +151,7 @@ TEST_F(Certificate, IsPrintedAsADraftWithItsFindings) {
         const std::string document = bytes_of(output() / name);
         EXPECT_NE(document.find("DRAFT"), std::string::npos) << name;
     }
-    EXPECT_NE(bytes_of(output() / "certificate.html").find("7.8.2.1 e"), std::string::npos);
+    EXPECT_NE(bytes_of(output() / "certificate.html").find("7.8.2.1\u00A0e"), std::string::npos);
     EXPECT_NE(text_of_pdf(output() / "certificate.pdf").find("DRAFT"), std::string::npos);
 }
 
