@@ -510,6 +510,23 @@ RotaryTableMeasurement without_group(const GroupTest& group, const JointAdjustme
     return corrected;
 }
 
+/// How far a check goes, which tells a cause and gives no result.
+SolverOptions solver_of_a_check(const EvaluationOptions& options) {
+    SolverOptions solver = options.solver;
+    solver.step_tolerance = std::max(solver.step_tolerance, k_step_of_a_check);
+    return solver;
+}
+
+/// Estimates the variances of a corrected measurement.
+void settle_for_a_check(JointAdjustment& without, const EstimatedComponents& estimated, StochasticModel& stochastic,
+                        const EvaluationOptions& options) {
+    const Progress silent;
+    Iteration iteration(estimated, silent);
+    iteration.settle(without, stochastic, options.max_component_iterations,
+                     std::max(options.component_tolerance, k_component_of_a_check), solver_of_a_check(options));
+    iteration.take_plausible(stochastic);
+}
+
 /// Variances of a measurement of which a group is taken for wrong, by what it is said to be.
 StochasticModel variances_without(const GroupTest& group, const JointAdjustment& adjustment,
                                   const EstimatedComponents& estimated, StochasticModel stochastic,
@@ -520,13 +537,7 @@ StochasticModel variances_without(const GroupTest& group, const JointAdjustment&
     without.adjustment().set_workers(options.workers);
     without.copy_parameters_from(adjustment);
     without.set_weights(stochastic);
-    const Progress silent;
-    Iteration iteration(estimated, silent);
-    SolverOptions solver = options.solver;
-    solver.step_tolerance = std::max(solver.step_tolerance, k_step_of_a_check);
-    iteration.settle(without, stochastic, options.max_component_iterations,
-                     std::max(options.component_tolerance, k_component_of_a_check), solver);
-    iteration.take_plausible(stochastic);
+    settle_for_a_check(without, estimated, stochastic, options);
     return stochastic;
 }
 
@@ -536,15 +547,9 @@ StochasticModel variances_without(const GroupTest& group, const JointAdjustment&
 GroupTests groups_at_own_variances(JointAdjustment& without, const EstimatedComponents& estimated,
                                    StochasticModel stochastic, const EvaluationOptions& options,
                                    const GroupTestOptions& group_options) {
-    const Progress silent;
-    Iteration iteration(estimated, silent);
-    SolverOptions solver = options.solver;
-    solver.step_tolerance = std::max(solver.step_tolerance, k_step_of_a_check);
-    iteration.settle(without, stochastic, options.max_component_iterations,
-                     std::max(options.component_tolerance, k_component_of_a_check), solver);
-    iteration.take_plausible(stochastic);
+    settle_for_a_check(without, estimated, stochastic, options);
     without.set_weights(stochastic);
-    require_convergence(without.adjustment().refine(solver), without.measurement());
+    require_convergence(without.adjustment().refine(solver_of_a_check(options)), without.measurement());
     const NormalEquations normal = without.adjustment().linearise();
     return test_groups(without, normal, normal.bordered_covariance(), group_options);
 }
