@@ -73,6 +73,9 @@ public:
                     if (!life.amends.empty() && is_before_issue(life.state)) {
                         under_way_[life.amends] = number;
                     }
+                    if (!life.number_amends.empty() && life.state == "numbered") {
+                        taken_[life.number_amends].push_back(number);
+                    }
                 }
             },
             [&](const ListedCertificate& certificate, std::string bytes) {
@@ -114,10 +117,17 @@ public:
         return found == under_way_.end() ? "" : found->second;
     }
 
+    /// Numbers that were taken for amendments of a certificate, and under which nothing is drafted yet.
+    [[nodiscard]] std::vector<std::string> taken_numbers(const std::string& number) const {
+        const auto found = taken_.find(number);
+        return found == taken_.end() ? std::vector<std::string>() : found->second;
+    }
+
 private:
     std::set<std::string> numbers_;                          // of all certificates, with a record or without
     std::map<std::string, Amendment> withdrawn_amendments_;  // by the number of what they took the place of
     std::map<std::string, std::string> under_way_;           // by the number of what they amend
+    std::map<std::string, std::vector<std::string>> taken_;  // by the number of what they would amend
     gum::WorkerThreads threads_;
     const gum::Progress& progress_;
     std::vector<SearchedRecord> found_;
@@ -1013,6 +1023,7 @@ std::vector<AffectedCertificate> find_affected(Archive& archive, const WrongStan
                                 .withdrawn_amendment = withdrawn.number,
                                 .withdrawn_record = withdrawn.record,
                                 .amendment_under_way = search.amendment_under_way(certificate.number),
+                                .taken_numbers = search.taken_numbers(certificate.number),
                                 .draft_number = search.free_number(certificate.number)});
         }
         wanted.push_back({certificate.number, certificate.number, certificate.state});
@@ -1109,6 +1120,10 @@ std::string affected_text(const std::vector<AffectedCertificate>& affected) {
         if (!one.amendment_under_way.empty() && one.no_draft.empty()) {
             text += "    " + text::visible(one.amendment_under_way, 80) + ", which amends it, is not issued yet\n";
         }
+        if (!one.taken_numbers.empty()) {
+            text += "    taken for an amendment of it, and not drafted: " + in_words(one.taken_numbers) +
+                    "; use or withdraw it\n";
+        }
         if (one.recalculated && one.recalculated->rerun.not_evaluated) {
             text += "    " + text::visible(one.recalculated->rerun.not_evaluated->what, 200) + "\n";
         }
@@ -1172,6 +1187,7 @@ std::string affected_json(const std::vector<AffectedCertificate>& affected, cons
             {"rests_on", std::move(rests_on)},
             {"withdrawn_amendment", one.withdrawn_amendment},
             {"amendment_under_way", one.amendment_under_way},
+            {"taken_numbers", one.taken_numbers},
             {"version_in_words", ""},
             {"not_corrected", nlohmann::json::array()},
             {"outcome", outcome_of(one)},

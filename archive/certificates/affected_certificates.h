@@ -73,8 +73,9 @@ struct AffectedCertificate {
     std::string withdrawn_amendment;         ///< number of what took its place and was withdrawn; "" else
     std::string withdrawn_record;            ///< SHA-256 of the record of that; "" else
     std::string amendment_under_way;  ///< number of a draft that amends or replaces it and is not issued yet; "" else
-    std::string draft_number;         ///< the next free number of an amendment of it
-    std::string draft_name = {};      ///< of a folder for its draft, another one for each certificate that was found
+    std::vector<std::string> taken_numbers;  ///< for amendments of it, under which nothing is drafted yet
+    std::string draft_number;                ///< the next free number of an amendment of it
+    std::string draft_name = {};  ///< of a folder for its draft, another one for each certificate that was found
 
     std::optional<Recalculation> recalculated = {};
     std::string draft_folder =

@@ -166,14 +166,14 @@ public:
         const json& data = gumcert::json::part_of(gumcert::json::part_of(record, "certificate"), "data");
         const MethodsOfCertificate methods(record);
         const json& dates = gumcert::json::part_of(data, "dates");
-        count(found_.by_kind, gumcert::json::text_of(record, "kind"));
-        for (const std::string& method : methods.all()) {
-            count(found_.by_method, method);
-        }
         if (certificate.state != "drafted" && certificate.state != "reviewed" && certificate.state != "authorised") {
             const CertificateLife& life = lives_.at(certificate.number);
             count(found_.by_month, life.issued_at.substr(0, 7));
             count(found_.by_authoriser, life.authorised_by);
+            count(found_.by_kind, gumcert::json::text_of(record, "kind"));
+            for (const std::string& method : methods.all()) {
+                count(found_.by_method, method);
+            }
             found_.amendments += life.amends.empty() ? 0U : 1U;  // reports of comparisons, too
         }
         const std::string done = gumcert::json::text_of(dates, "performed_to");
@@ -394,8 +394,8 @@ std::string statistics_text(const ArchiveStatistics& statistics) {
     std::string text = counts_as_text("Certificates by state", statistics.by_state) +
                        counts_as_text("Issued, by month", statistics.by_month) +
                        counts_as_text("Issued, by who authorised them", statistics.by_authoriser) +
-                       counts_as_text("By method", statistics.by_method) +
-                       counts_as_text("By kind of evaluation", statistics.by_kind);
+                       counts_as_text("Issued, by method", statistics.by_method) +
+                       counts_as_text("Issued, by kind of evaluation", statistics.by_kind);
     text += "Amendments that were issued: " + std::to_string(statistics.amendments) + "\n";
     if (const std::string set_back = in_words(statistics.set_back); !set_back.empty()) {
         text += "Clocks that were ahead: " + set_back + "\n";

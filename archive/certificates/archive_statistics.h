@@ -53,9 +53,10 @@ struct ArchivedScores {
     double largest = 0.0;                   ///< |E_n|
 };
 
-/// What an archive says of the work of a laboratory. Numbers and drafts that have no record yet are counted by state only.
+/// What an archive says of the work of a laboratory. What was not issued is counted by state only.
 struct ArchiveStatistics {
-    std::map<std::string, std::size_t> by_state, by_kind, by_method;
+    std::map<std::string, std::size_t> by_state;
+    std::map<std::string, std::size_t> by_kind, by_method;  ///< certificates that were issued
     LogTimes::SetBack set_back;  ///< entries after clocks that were ahead: months of issue may be those of such a clock
     std::map<std::string, std::size_t> by_month;  ///< of issue by the log, "2026-11"; certificates that were issued
     std::map<std::string, std::size_t> by_authoriser;  ///< person of the log; certificates that were issued

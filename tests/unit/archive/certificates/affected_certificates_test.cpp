@@ -214,6 +214,32 @@ TEST_F(ArchiveOfStandards, AreFoundThroughAWithdrawnCertificate) {
     EXPECT_NE(waits_for(affected[0]).find("which was withdrawn"), std::string::npos);
 }
 
+/// A number that was taken for an amendment may be meant for this one or for another: it is told, until it is used or withdrawn.
+TEST_F(ArchiveOfStandards, TellNumbersThatWereTaken) {
+    add("EX-1", R"({"source": "STD-017"})");
+    add("EX-2", R"({"source": "STD-017"})");
+    const auto told = [&] {
+        std::string all;
+        const std::vector<AffectedCertificate> affected = find_affected(archive_, {"STD-017", "2026-03-02", ""}, 1);
+        const json list = json::parse(affected_json(affected, {}))["certificates"];
+        for (const json& one : list) {
+            all += one["number"].get<std::string>() + one["taken_numbers"].dump() + " ";
+        }
+        const bool is_told = affected_text(affected).find(
+                                 "for an amendment of it, and not drafted: EX-1/A1, EX-1/A2;") != std::string::npos;
+        return all + (is_told ? "in words, too, " : "") + affected[0].draft_number;
+    };
+    EXPECT_EQ(told(), "EX-1[] EX-2[] EX-1/A1");
+    (void)archive_.take_amendment_number("EX-1", by("A. Author"));
+    (void)archive_.take_amendment_number("EX-1", by("A. Author"));
+    EXPECT_EQ(told(), R"(EX-1["EX-1/A1","EX-1/A2"] EX-2[] in words, too, EX-1/A3)");
+    (void)archive_.advance("EX-1/A1", "withdrawn", by("R. Reviewer"));
+    Draft draft = test::sample_draft("EX-1/A2");
+    draft.amends = Draft::Amends{"EX-1", "amended", {{"text", "/title", "a", "b"}}};
+    (void)archive_.draft(draft, by("A. Author"));
+    EXPECT_EQ(told(), "EX-1[] EX-2[] EX-1/A3");
+}
+
 /// Two numbers that differ in a character that no name of a file has do not share a folder.
 TEST_F(ArchiveOfStandards, HaveEachAFolderForItsDraft) {
     std::set<std::string> numbers;

@@ -64,8 +64,8 @@ TEST_F(StatisticsOfAnArchive, CountsCertificates) {
     EXPECT_EQ(found.by_state, (Counts{{"issued", 2}, {"reviewed", 1}, {"withdrawn", 1}, {"drafted", 1}}));
     EXPECT_EQ(found.by_month, (Counts{{"2026-01", 2}})) << "of the entry, whatever the record says";
     EXPECT_EQ(found.by_authoriser, (Counts{{"R. Reviewer", 2}})) << "of the log";
-    EXPECT_EQ(found.by_method, (Counts{{"CP-01", 2}, {"CP-02", 1}}));
-    EXPECT_EQ(found.by_kind, (Counts{{"budget", 3}}));
+    EXPECT_EQ(found.by_method, (Counts{{"CP-01", 2}})) << "that were issued";
+    EXPECT_EQ(found.by_kind, (Counts{{"budget", 2}})) << "that were issued";
     EXPECT_EQ(found.not_read, std::vector<std::string>{"C-5"});
     EXPECT_NE(statistics_text(found).find("Not read: the record of C-5"), std::string::npos);
     EXPECT_EQ(json::parse(statistics_json(found))["by_month"]["2026-01"], 2);
