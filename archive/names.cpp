@@ -1,6 +1,7 @@
 #include "archive/names.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <utility>
@@ -41,7 +42,31 @@ void each_character(std::string_view text, const Work& work) {
 }
 
 bool is_hyphen(char32_t code) {
-    return code == U'-' || (code >= 0x2010 && code <= 0x2015) || code == 0x2212 || code == 0xFE63 || code == 0xFF0D;
+    return (code >= 0x2010 && code <= 0x2015) || code == 0x2043 || code == 0x2212 || code == 0xFE58 || code == 0xFE63 ||
+           code == 0xFF0D;
+}
+
+/// A character in the form in which who reads it takes it: of another width or type, a sign for a letter.
+std::string plain_form(char32_t code) {
+    // Roman numerals from U+2160, small ones from U+2170.
+    constexpr std::array<const char*, 16> k_roman = {"I",  "II", "III", "IV",  "V", "VI", "VII", "VIII",
+                                                     "IX", "X",  "XI",  "XII", "L", "C",  "D",   "M"};
+    const auto letter = [](char32_t ordinal) {  // of "A … Z a … z"
+        return ordinal < 26 ? U'A' + ordinal : U'a' + (ordinal - 26);
+    };
+    if (code >= 0x2160 && code <= 0x217F) {
+        return k_roman.at((code - 0x2160) % 16);
+    }
+    const char32_t plain = is_hyphen(code)                      ? U'-'
+                           : code == 0x2044 || code == 0x2215   ? U'/'
+                           : code == 0x212A                     ? U'K'  // kelvin, ångström and ohm are letters
+                           : code == 0x212B                     ? 0xC5
+                           : code == 0x2126                     ? 0x3A9
+                           : code >= 0xFF01 && code <= 0xFF5E   ? code - 0xFF01 + U'!'          // full-width
+                           : code >= 0x1D7CE && code <= 0x1D7FF ? U'0' + (code - 0x1D7CE) % 10  // of mathematics
+                           : code >= 0x1D400 && code <= 0x1D6A3 ? letter((code - 0x1D400) % 52)
+                                                                : code;
+    return text::encode_utf8(plain);
 }
 
 }  // namespace
@@ -73,7 +98,7 @@ std::string confusable_form(std::string_view number) {
     std::string letters;
     each_character(number, [&](char32_t code) {
         const bool unseen = text::is_hidden(code) || text::is_blank(code);
-        letters += unseen ? "" : is_hyphen(code) ? "-" : text::encode_utf8(code);
+        letters += unseen ? "" : plain_form(code);
     });
     std::string form;
     each_character(gum::look_alike_skeleton(letters),

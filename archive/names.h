@@ -14,7 +14,8 @@ namespace gumcert::archive {
 [[nodiscard]] bool may_be_one_person(std::string_view a, std::string_view b);
 
 /// The form in which numbers of certificates are compared: two with the same one cannot be told apart. Letters that look alike
-/// are one, small, hyphens of all kinds one, and blanks and hidden characters nothing.
+/// are one, small, hyphens and slashes of all kinds one, full-width characters and signs that are letters plain ones, and blanks and
+/// hidden characters nothing.
 [[nodiscard]] std::string confusable_form(std::string_view number);
 
 /// Why a text cannot be told from others by who reads it: hidden characters, blanks that are no plain single ones,

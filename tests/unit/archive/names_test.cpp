@@ -56,11 +56,13 @@ TEST(NamesOfPersons, HaveAKeyForTheLog) {
 
 TEST(NumbersOfCertificates, AreConfusableInTheSameForm) {
     std::set<std::string> forms;
-    for (const char* const number : {"X-1", "x-1", "\u0425-1", "X\u20111", "X - 1", "X\u2212\u200B1"}) {
+    for (const char* const number : {"X-1", "x-1", "\u0425-1", "X\u20111", "X - 1", "X\u2212\u200B1", "Ｘ－１", "X-１",
+                                     "\U0001D417-\U0001D7CF", "\u2169-1", "\u2179-1"}) {
         forms.insert(confusable_form(number));
     }
     EXPECT_EQ(forms.size(), 1U);
     EXPECT_EQ(confusable_form("EX-2026-0001/\u04101"), confusable_form("EX-2026-0001/A1"));
+    EXPECT_EQ(confusable_form("Å-Ω-K-VIII/1"), confusable_form("\u212B-\u2126-\u212A-\u2167\u22151"));
     for (const char* const number : {"X-01", "X-11", "X1", "X-1/A", "Y-1", "X-1.", "X/1"}) {
         EXPECT_NE(confusable_form(number), confusable_form("X-1")) << number;
     }
