@@ -212,8 +212,10 @@ bool is_run_of_alphabet(const std::u32string& word) {
 /// "xyxyxy": five letters or more, and only two different ones.
 bool is_keys_pressed(const std::u32string& word) {
     constexpr std::size_t k_least = 5;
-    const std::set<char32_t> different(word.begin(), word.end());
-    return word.size() >= k_least && different.size() <= 2 && std::none_of(word.begin(), word.end(), is_digit) &&
+    const std::size_t other = word.find_first_not_of(word.front());
+    const bool are_two = other == std::u32string::npos ||
+                         word.find_first_not_of(std::u32string{word.front(), word[other]}) == std::u32string::npos;
+    return word.size() >= k_least && are_two && std::none_of(word.begin(), word.end(), is_digit) &&
            std::none_of(word.begin(), word.end(), is_ideograph);
 }
 

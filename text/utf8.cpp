@@ -58,7 +58,8 @@ std::string encode_utf8(char32_t code) {
 
 bool is_utf8(std::string_view text) {
     for (std::size_t i = 0; i < text.size();) {
-        const std::size_t bytes = decode_utf8(text, i).bytes;
+        const bool is_ascii = static_cast<unsigned char>(text[i]) < 0x80;  // most of a text is
+        const std::size_t bytes = is_ascii ? 1 : decode_utf8(text, i).bytes;
         if (bytes == 0) {
             return false;
         }

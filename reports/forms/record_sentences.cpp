@@ -4,8 +4,11 @@
 
 #include <nlohmann/json.hpp>
 
+#include <cstdint>
 #include <mutex>
 #include <set>
+#include <system_error>
+#include <tuple>
 #include <utility>
 
 namespace gumcert::reports {
@@ -90,16 +93,18 @@ std::vector<std::string> program_sentences_of(const EvaluationRecord& record) {
 }
 
 std::shared_ptr<const ProgramSentences> read_sentences(const std::filesystem::path& templates) {
-    // To make patterns of the catalogue takes a third of the time of a small evaluation.
+    // To make patterns of the catalogue takes a third of the time of a small evaluation, to read it a twentieth.
+    using State = std::tuple<std::filesystem::path, std::filesystem::file_time_type, std::uintmax_t>;
     static std::mutex one_at_a_time;
-    static std::string made_of;
+    static State made_of;
     static std::shared_ptr<const ProgramSentences> made;
     const std::filesystem::path file = templates / "wording" / "sentences.json";
-    std::string text = read_asset(file);
+    std::error_code failure;  // which reading tells
+    const State state{file, std::filesystem::last_write_time(file, failure), std::filesystem::file_size(file, failure)};
     const std::lock_guard lock(one_at_a_time);
-    if (!made || text != made_of) {
-        made = std::make_shared<const ProgramSentences>(json_of_asset(text, file));
-        made_of = std::move(text);
+    if (!made || failure || state != made_of) {
+        made = std::make_shared<const ProgramSentences>(read_json_asset(file));
+        made_of = state;
     }
     return made;
 }
