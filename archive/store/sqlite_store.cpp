@@ -26,7 +26,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int k_patience_ms = 60'000;
 constexpr const char* k_entry_columns = "seq, at, actor, kind, certificate, record, request_key, body, prev, hash";
 
 [[noreturn]] void refuse_store(const char* code, const fs::path& file, std::string what, const char* rule,
@@ -52,6 +51,18 @@ std::string select_entries(const char* rest) {
     return std::string("SELECT ") + k_entry_columns + " FROM log " + rest;
 }
 
+/// Whether to ask again for a lock. The waits of SQLite itself grow to 100 ms; where others write without a pause, who asks so seldom
+/// waits for minutes.
+int wait_for_others(void* /*context*/, int asked) {
+    constexpr int k_pause_ms = 5;
+    constexpr int k_patience_ms = 60'000;
+    if (asked >= k_patience_ms / k_pause_ms) {
+        return 0;
+    }
+    (void)sqlite3_sleep(k_pause_ms);
+    return 1;
+}
+
 /// \param address  of the file where it is opened in another way than by its name (SQLITE_OPEN_URI)
 Database open_database(const fs::path& file, int flags, const std::string& address = "") {
     sqlite3* opened = nullptr;
@@ -63,7 +74,7 @@ Database open_database(const fs::path& file, int flags, const std::string& addre
     if (result != SQLITE_OK) {
         refuse_sqlite(database.get(), result, file.string());
     }
-    (void)sqlite3_busy_timeout(database.get(), k_patience_ms);
+    (void)sqlite3_busy_handler(database.get(), wait_for_others, nullptr);
     // No statement may write the tables of SQLite itself, by which the triggers that refuse changes could be taken
     // away.
     (void)sqlite3_db_config(database.get(), SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
