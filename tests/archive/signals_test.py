@@ -5,6 +5,7 @@
 
 - "nothing was written" is said where nothing was: no new entry, no new file
 - where an entry is in the log, it is named, or it is said that this is not known
+- it ends where nobody reads what it says, too
 - what a command begins is there whole, and sound, or not at all; nothing stays beside it, and what a kill leaves the next command removes
 """
 
@@ -85,6 +86,22 @@ class Trial:
             expect(self.others() == [out.name], f"{name}: the next one leaves {self.others()}")
             out.unlink()
 
+    def without_a_reader(self):
+        """A command that waits for another writer, ended when nobody reads any more what it says."""
+        writer = sqlite3.connect(self.store)
+        writer.execute("BEGIN IMMEDIATE")
+        process = subprocess.Popen([self.program, "archive", "number", "--store", self.store, "--by", "K"], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+        time.sleep(1.0)
+        process.stderr.close()
+        process.send_signal(signal.SIGTERM)
+        try:
+            ended = process.wait(30)
+            expect(ended == -signal.SIGTERM, f"without a reader it ends with {ended}")
+        except subprocess.TimeoutExpired:
+            process.kill()
+            expect(False, "it does not end where nobody reads what it says")
+        writer.close()
+
 
 def main():
     parser = argparse.ArgumentParser()
@@ -98,6 +115,7 @@ def main():
             for moment in range(options.moments):
                 for by in (signal.SIGINT, signal.SIGTERM, signal.SIGKILL)[:3 if moment % 4 == 0 else 1]:
                     trial.one(action, 1.2 * whole * (moment + 1) / options.moments, by)
+        trial.without_a_reader()
         expect(trial.ended > 0, "no signal came while a command was at work")
         print(f"{trial.ended} commands ended by a signal that they answered")
     print(f"{len(faults)} faults")
