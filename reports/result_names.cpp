@@ -135,15 +135,16 @@ Text name_of_budget_row(const BudgetRow& row, const Wording& words) {
     if (row.role == "fit" || row.role == "fit_data") {
         return words.filled("label", row.role == "fit" ? "fit_of" : "data_of", {{"name", row.input}});
     }
-    return row.role == "scatter" ? words("label", "scatter_of_readings")
-           : row.part.empty()
-               ? Text(row.input)
-               : words.filled("budget_part", row.part, {{"standard", row.standard}, {"since", row.since}});
+    if (row.role == "scatter" || row.role == "extremes") {
+        return words("label", row.role == "scatter" ? "scatter_of_readings" : "which_are_extreme");
+    }
+    return row.part.empty() ? Text(row.input)
+                            : words.filled("budget_part", row.part, {{"standard", row.standard}, {"since", row.since}});
 }
 
 Text source_of_budget_row(const BudgetRow& row, const Wording& words) {
     // That readings are where their scatter comes from says nothing.
-    return row.role == "scatter" && row.source == row.input ? Text()
+    return (row.role == "scatter" || row.role == "extremes") && row.source == row.input ? Text()
            : row.certificate.empty()
                ? Text(row.source)
                : words.filled("budget_part", "source", {{"standard", row.standard}, {"certificate", row.certificate}});

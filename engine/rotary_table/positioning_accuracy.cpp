@@ -254,4 +254,119 @@ Eigen::MatrixXd positioning_derivatives(const PositioningRuns& runs,
     return result;
 }
 
+namespace {
+
+/// Values that are combinations of means and standard deviations of targets, and their derivatives.
+class CombinedMoments {
+public:
+    CombinedMoments(const PositioningRuns& runs, const Eigen::Ref<const Eigen::VectorXd>& deviations)
+        : runs_(runs), deviations_(deviations), senses_(all_moments(runs, deviations)) {}
+
+    [[nodiscard]] std::size_t targets(bool up) const { return senses_[up ? 0 : 1].size(); }
+    [[nodiscard]] Moments of(std::size_t target, bool up) const { return senses_[up ? 0 : 1][target]; }
+
+    /// Begins a value.
+    CombinedMoments& value() {
+        values_.push_back(0.0);
+        rows_.emplace_back(Eigen::RowVectorXd::Zero(deviations_.size()));
+        return *this;
+    }
+    /// Adds by_mean x̄ + by_s s of a target to the value that was begun last.
+    CombinedMoments& add(std::size_t target, bool up, double by_mean, double by_s) {
+        const Indices& list = up ? runs_.up[target] : runs_.down[target];
+        const auto [mean, s] = of(target, up);
+        const auto n = static_cast<double>(list.size());
+        values_.back() += by_mean * mean + by_s * s;
+        for (const Eigen::Index j : list) {
+            rows_.back()[j] += by_mean / n;
+            if (by_s != 0.0 && s > 0.0) {
+                rows_.back()[j] += by_s * (deviations_[j] - mean) / ((n - 1.0) * s);
+            }
+        }
+        return *this;
+    }
+    [[nodiscard]] Eigen::Index last() const { return static_cast<Eigen::Index>(values_.size()) - 1; }
+
+    [[nodiscard]] PositioningExtremes extremes(Indices upper, Indices lower) const {
+        PositioningExtremes result;
+        result.value = Eigen::Map<const Eigen::VectorXd>(values_.data(), static_cast<Eigen::Index>(values_.size()));
+        result.by_deviation.resize(result.value.size(), deviations_.size());
+        for (std::size_t i = 0; i < rows_.size(); ++i) {
+            result.by_deviation.row(static_cast<Eigen::Index>(i)) = rows_[i];
+        }
+        result.upper = std::move(upper);
+        result.lower = std::move(lower);
+        return result;
+    }
+
+private:
+    const PositioningRuns& runs_;
+    Eigen::VectorXd deviations_;
+    std::array<std::vector<Moments>, 2> senses_;
+    std::vector<double> values_;
+    std::vector<Eigen::RowVectorXd> rows_;
+};
+
+/// Senses of approach that a parameter looks at.
+std::vector<bool> senses_of(Parameter parameter) {
+    switch (parameter) {
+        case Parameter::systematic_up:
+        case Parameter::repeatability_up:
+        case Parameter::accuracy_up:
+            return {true};
+        case Parameter::systematic_down:
+        case Parameter::repeatability_down:
+        case Parameter::accuracy_down:
+            return {false};
+        default:
+            return {true, false};
+    }
+}
+
+}  // namespace
+
+PositioningExtremes positioning_extremes(const PositioningRuns& runs,
+                                         const Eigen::Ref<const Eigen::VectorXd>& deviations, Parameter parameter) {
+    CombinedMoments all(runs, deviations);
+    Indices upper;
+    Indices lower;
+    if (parameter == Parameter::mean_deviation_range) {
+        for (std::size_t i = 0; i < all.targets(true); ++i) {
+            upper.push_back(all.value().add(i, true, 0.5, 0.0).add(i, false, 0.5, 0.0).last());
+        }
+        return all.extremes(upper, upper);
+    }
+    if (parameter == Parameter::reversal) {
+        for (std::size_t i = 0; i < all.targets(true); ++i) {
+            for (const double sign : {1.0, -1.0}) {
+                upper.push_back(all.value().add(i, true, sign, 0.0).add(i, false, -sign, 0.0).last());
+            }
+        }
+        return all.extremes(upper, {});
+    }
+    const bool is_accuracy = parameter == Parameter::accuracy || parameter == Parameter::accuracy_up ||
+                             parameter == Parameter::accuracy_down;
+    const bool is_repeatability = parameter == Parameter::repeatability || parameter == Parameter::repeatability_up ||
+                                  parameter == Parameter::repeatability_down;
+    for (const bool up : senses_of(parameter)) {
+        for (std::size_t i = 0; i < all.targets(up); ++i) {
+            if (is_repeatability) {
+                upper.push_back(all.value().add(i, up, 0.0, 4.0).last());
+            } else {
+                const double by_s = is_accuracy ? 2.0 : 0.0;
+                upper.push_back(all.value().add(i, up, 1.0, by_s).last());
+                lower.push_back(is_accuracy ? all.value().add(i, up, 1.0, -by_s).last() : upper.back());
+            }
+        }
+    }
+    if (parameter == Parameter::repeatability) {
+        for (std::size_t i = 0; i < all.targets(true); ++i) {
+            for (const double sign : {1.0, -1.0}) {  // of the reversal, whose magnitude R_i holds
+                upper.push_back(all.value().add(i, true, sign, 2.0).add(i, false, -sign, 2.0).last());
+            }
+        }
+    }
+    return all.extremes(upper, lower);
+}
+
 }  // namespace gumcert::engine

@@ -78,4 +78,17 @@ struct PositioningAccuracy {
 [[nodiscard]] Eigen::MatrixXd positioning_derivatives(const PositioningRuns& runs,
                                                       const Eigen::Ref<const Eigen::VectorXd>& deviations);
 
+/// The values of which a parameter takes the largest, less the smallest of some: A↑ is the largest of x̄_i↑ + 2 s_i↑ less the
+/// smallest of x̄_i↑ - 2 s_i↑, B the largest of B_i and -B_i.
+struct PositioningExtremes {
+    Eigen::VectorXd value;                   ///< n, in the unit of the deviations
+    Eigen::MatrixXd by_deviation;            ///< n×deviations, [1]; a standard deviation that is 0 has no derivative
+    std::vector<Eigen::Index> upper, lower;  ///< among the values; of R and B nothing is taken off
+};
+
+/// \param parameter  one that the runs allow, and not the mean of the reversals, which is no extreme
+[[nodiscard]] PositioningExtremes positioning_extremes(const PositioningRuns& runs,
+                                                       const Eigen::Ref<const Eigen::VectorXd>& deviations,
+                                                       PositioningParameter parameter);
+
 }  // namespace gumcert::engine

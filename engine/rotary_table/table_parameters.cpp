@@ -357,6 +357,15 @@ Eigen::MatrixXd TableParameterModel::jacobian_of_table(const Eigen::VectorXd& re
     return by_inputs(solved, joint_->equations(), datum, parameters_->derivatives(reported, positions));
 }
 
+Eigen::MatrixXd TableParameterModel::jacobian_of_positions(const Eigen::MatrixXd& by_position) const {
+    const JointAdjustment& solved = joint_->solved();
+    const DatumSolution datum =
+        transform_to_datum(joint_->measurement(), solved.poses(), solved.set_up(), joint_->measurement().datum);
+    const Eigen::Index reported = reported_values(solved, datum).size();
+    return by_inputs(solved, joint_->equations(), datum,
+                     {Eigen::MatrixXd::Zero(by_position.rows(), reported), by_position});
+}
+
 Eigen::MatrixXd TableParameterModel::by_inputs(const JointAdjustment& adjustment, const NormalEquations& normal,
                                                const DatumSolution& datum, TableParameters::Derivatives by) const {
     const RotaryTableMeasurement& measurement = joint_->measurement();

@@ -84,8 +84,9 @@ struct TableParameterLayout {
 ///   that angle in one sense. The deviations hold the noise of the measurement besides that of the table.
 ///
 /// A range and every maximum rest on the angles that are extreme in the estimate. Where noise can change them, the law
-/// of propagation and its U are not valid (JCGM 101:2008, 5.8.1). Monte Carlo about the estimate does not repair it: the estimate holds noise
-/// that makes it larger, and a trial adds as much once more (ADR 0015).
+/// of propagation alone is not valid (JCGM 101:2008, 5.8.1), and Monte Carlo about the estimate does not repair it: the estimate holds
+/// noise that makes it larger, and a trial adds as much once more (ADR 0015). gum/monte_carlo/extreme_uncertainty.h adds what is not
+/// known of the angles (ADR 0090).
 class TableParameters final : public DerivedQuantities {
 public:
     /// \param datum     the nominal solution in the datum of the result
@@ -158,6 +159,9 @@ public:
     /// \param positions  of its visits, V, [rad]
     [[nodiscard]] Eigen::MatrixXd jacobian_of_table(const Eigen::VectorXd& reported,
                                                     const Eigen::VectorXd& positions) const;
+    /// ∂/∂inputs of combinations of the positions of visits, at the nominal solution. Joint method only.
+    /// \param by_position  k×V, [1]
+    [[nodiscard]] Eigen::MatrixXd jacobian_of_positions(const Eigen::MatrixXd& by_position) const;
     // Of the adjustment; joint method only.
     [[nodiscard]] const std::vector<Visit>& visits() const { return joint_->solved().visits(); }
     [[nodiscard]] bool has_reversal() const { return joint_->solved().has_reversal(); }

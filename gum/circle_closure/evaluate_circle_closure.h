@@ -24,7 +24,9 @@ struct ClosureCoverage {
 
 struct CircleClosureMonteCarlo {
     MonteCarloResult result;
-    std::vector<Validation> validations;  ///< one an output, in the unit of the request
+    /// One an output, in the unit of the request; none of a range: the deviations hold their noise already, and trials would
+    /// add it once more (ADR 0015).
+    std::vector<std::optional<Validation>> validations;
 };
 
 /// Everything computed for a comparison of two circles. Outputs: T, P, range of T, range of P.
@@ -35,6 +37,9 @@ struct CircleClosureResult {
     std::vector<ClosureCoverage> coverage;
     std::optional<CircleClosureMonteCarlo> monte_carlo;
     bool validation_failed = false;
+
+    /// The last two outputs.
+    [[nodiscard]] bool is_range(Eigen::Index output) const { return output >= propagation.value.size() - 2; }
 };
 
 /// Solves the comparison: adjustment, law of propagation, coverage, Monte Carlo.

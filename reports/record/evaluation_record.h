@@ -62,7 +62,8 @@ struct BudgetRow {
     std::vector<BudgetRow> components;  ///< the parts of an input that is a sum, as table H.1 of the GUM shows them
     /// "" for an input. "fit" for all parameters of a fit together, their covariances included; its components are
     /// "fit_data", what comes from each column of the data (their squares add up to that of the row), and
-    /// "fit_parameter", each parameter alone, which do not add up. "scatter" for the readings of a circle closure
+    /// "fit_parameter", each parameter alone, which do not add up. "scatter" for the readings of a circle closure; "extremes" of a
+    /// range for what is not known of which values are extreme
     std::string role = {};
     /// Of a component that the program named, in English, so that documents name it in theirs: "calibration", "interpolation"
     /// and "drift" are those of a standard of the register, by a certificate, since its day; "readings", "resolution". "" else

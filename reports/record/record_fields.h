@@ -38,7 +38,7 @@ void describe(Archive& a, Struct& r) {
     a("share", r.share, NumberRule::not_negative);
     a("source", r.source);
     a.added("components", r.components);
-    a.added("role", r.role, {"", "fit", "fit_data", "fit_parameter", "scatter"});
+    a.added("role", r.role, {"", "fit", "fit_data", "fit_parameter", "scatter", "extremes"});
     a.stated("part", r.part, {"", "calibration", "interpolation", "drift", "readings", "resolution"});
     a.stated("standard", r.standard);
     a.stated("certificate", r.certificate);

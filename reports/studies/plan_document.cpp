@@ -112,7 +112,9 @@ std::string parameters_sentence(const Expected& expected) {
         "U of a range and of E, R and A depends on which angles are extreme and on how the runs scatter: it is the "
         "root "
         "mean square over " +
-        std::to_string(k_drawn_tables) + " drawn tables, of each as an evaluation states it.";
+        std::to_string(k_drawn_tables) +
+        " drawn tables, of each as an evaluation states it where it is clear which angles are extreme; of others it "
+        "states more.";
     const ExpectedParameters& parameters = expected.parameters;
     if (parameters.u_deviation > 0.0) {
         text += " The deviation of one run will have a standard uncertainty of " +

@@ -48,6 +48,12 @@ TEST_F(Names, OfRowsOfABudgetAreThoseOfTheDocument) {
     scatter.role = "scatter";
     EXPECT_EQ(name_of_budget_row(scatter, words_).in(1), "Streuung der Ablesungen");
     EXPECT_TRUE(source_of_budget_row(scatter, words_).empty());
+    BudgetRow extremes;
+    extremes.input = "which values are extreme";
+    extremes.source = extremes.input;
+    extremes.role = "extremes";
+    EXPECT_EQ(name_of_budget_row(extremes, words_).in(1), "welche Werte die äußersten sind");
+    EXPECT_TRUE(source_of_budget_row(extremes, words_).empty());
     BudgetRow input;
     input.input = "l_s";
     input.source = "STD-1";

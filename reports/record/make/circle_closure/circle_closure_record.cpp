@@ -11,6 +11,7 @@
 #include "gum/analysis_of_variance.h"
 #include "gum/coverage.h"
 #include "gum/monte_carlo/convolution.h"
+#include "gum/monte_carlo/extreme_uncertainty.h"
 #include "gum/propagation.h"
 #include "gum/rounding.h"
 #include "jobs/circle_closure/circle_closure_statement.h"
@@ -95,6 +96,25 @@ reports::BudgetRow budget_row(const CircleClosureJob& job, const gum::CircleClos
     return row;
 }
 
+/// What it adds to the u of a range that other deviations may be the extreme ones.
+reports::BudgetRow row_of_extremes(const CircleClosureJob& job, const gum::Propagation& propagation, Index output) {
+    reports::BudgetRow row;
+    row.input = row.source = gum::k_which_are_extreme;
+    row.unit = job.unit.text();
+    row.type = "B";
+    row.role = "extremes";
+    const double variance = propagation.budget.back().variance(output);
+    row.u = row.contribution = shown_significant(job.unit.difference_from_si(std::sqrt(variance)), k_digits_of_u);
+    row.share = shown_share(gum::share_of_extremes(propagation, output));
+    // The same errors decide it as make the rest of u, so that ν_eff stays: u⁴/ν = u_law⁴/ν + u_x⁴/ν_x of Welch-Satterthwaite.
+    const double u2 = std::pow(propagation.standard_uncertainty(output), 2);
+    if (const auto nu =
+            finite_or_none(propagation.effective_degrees_of_freedom(output) * variance / (2.0 * u2 - variance))) {
+        row.nu = shown_to_quantum(*nu, 0);
+    }
+    return row;
+}
+
 reports::Result result_of(const CircleClosureJob& job, const gum::CircleClosureResult& result, const OutputName& name,
                           Index output) {
     const gum::Propagation& propagation = result.propagation;
@@ -121,8 +141,11 @@ reports::Result result_of(const CircleClosureJob& job, const gum::CircleClosureR
         out.budget.push_back(budget_row(job, result, group, first, output));
         first += result.model->inputs()[group].size();
     }
+    if (gum::share_of_extremes(propagation, output) > 0.0) {
+        out.budget.push_back(row_of_extremes(job, propagation, output));
+    }
     out.reported = reports::reported_result(out);
-    if (result.monte_carlo) {
+    if (result.monte_carlo && !result.is_range(output)) {
         const auto index = static_cast<std::size_t>(output);
         const gum::MonteCarloResult& trials = result.monte_carlo->result;
         out.monte_carlo =
@@ -442,6 +465,9 @@ std::map<std::string, std::function<certificate::ResultDistribution()>> circle_c
         const bool is_convolution = result.coverage[i].coverage == "convolution";
         if (!is_convolution && gum::is_normal_or_student(*result.model, *propagation, at(i))) {
             continue;
+        }
+        if (gum::share_of_extremes(*propagation, at(i)) > 0.0) {
+            continue;  // the convolution is that of the two deviations that are extreme in the estimates
         }
         const auto make = [model = result.model, propagation, i, unit = job.unit]() -> certificate::ResultDistribution {
             const auto terms = gum::convolution_terms(*model, *propagation, at(i));

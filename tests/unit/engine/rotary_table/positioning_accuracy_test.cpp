@@ -172,6 +172,36 @@ TEST(PositioningAccuracy, DerivativesAreCentralDifferences) {
     }
 }
 
+// Every parameter but the mean of the reversals is the largest of these values less the smallest, with the same derivatives.
+TEST(PositioningAccuracy, ExtremesAreThoseOfTheParameters) {
+    for (const double reversal : {0.0, 8.0, -8.0}) {
+        for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+            const DataSet data = uneven(seed, reversal);
+            const PositioningAccuracy accuracy = evaluate_positioning(data.runs, data.deviations);
+            const Eigen::MatrixXd derivatives = positioning_derivatives(data.runs, data.deviations);
+            for (std::size_t k = 0; k < k_positioning_parameters; ++k) {
+                const auto parameter = static_cast<Parameter>(k);
+                if (parameter == Parameter::mean_reversal) {
+                    continue;
+                }
+                const PositioningExtremes all = positioning_extremes(data.runs, data.deviations, parameter);
+                const auto less = [&](Eigen::Index a, Eigen::Index b) { return all.value[a] < all.value[b]; };
+                const Eigen::Index most = *std::max_element(all.upper.begin(), all.upper.end(), less);
+                double value = all.value[most];
+                Eigen::RowVectorXd by = all.by_deviation.row(most);
+                if (!all.lower.empty()) {
+                    const Eigen::Index least = *std::min_element(all.lower.begin(), all.lower.end(), less);
+                    value -= all.value[least];
+                    by -= all.by_deviation.row(least);
+                }
+                EXPECT_NEAR(value, *accuracy.parameters[k], 1e-12) << positioning_parameter_names()[k];
+                EXPECT_LT((by - derivatives.row(static_cast<Eigen::Index>(k))).cwiseAbs().maxCoeff(), 1e-12)
+                    << positioning_parameter_names()[k] << ", seed " << seed;
+            }
+        }
+    }
+}
+
 TEST(PositioningAccuracy, RepeatabilityOfOneSenseCanExceedThatOfBoth) {
     // s↑ = √2 · 5, s↓ = √2, B = 0: 4 s↑ is more than 2 s↑ + 2 s↓.
     const DataSet data = data_set({{0.0, -5e-6, 5e-6}}, {{0.0, -1e-6, 1e-6}});
