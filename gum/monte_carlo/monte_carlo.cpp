@@ -361,7 +361,7 @@ public:
                     " such trials among the first " + std::to_string(trials) + ")",
             .rule = "every trial must have a value",
             .action = "Check whether the distributions reach outside the domain of the model, and choose ones that do "
-                      "not."});
+                      "not; or say in the equation what holds beyond it, as sqrt(max(x, 0)) does."});
     }
 
 private:

@@ -1053,7 +1053,8 @@ void BudgetInputs::read_point_array(const json& points, const std::string& point
             } else {
                 told.insert(*index);
                 problems_.refuse(k_wrong_type, document_.where(at), described(value), "must be a number or an object",
-                                 "state the value, or the keys that differ at this point");
+                                 value.is_array() ? "state readings as {\"observations\": [...]}"
+                                                  : "state the value, or the keys that differ at this point");
             }
         }
         name_point(point, name, document_.where(here), job, problems_);

@@ -245,6 +245,8 @@ const std::vector<BadBudget>& bad_budgets() {
         // ---- points
         {"point_unknown", abc(R"j("points": [{"d": 1}])j"), code(k_unknown_quantity), "job.json#/points/0/d",
          "\"d\" is none of the inputs"},
+        {"point_readings_bare", abc(R"j("points": [{"a": [11.9, 12.1]}])j"), code(k_wrong_type), "job.json#/points/0/a",
+         "state readings as {\"observations\": [...]}"},
         {"point_repeated", abc(R"j("points": [{"point": "P", "a": 1}, {"point": "P", "a": 2}])j"),
          code(k_repeated_point), "job.json#/points/1", "a second point \"P\""},
         {"point_negative_u", abc(R"j("points": [{"a": {"u": -1}}])j"), code(k_number_out_of_range),
