@@ -36,8 +36,14 @@ ClosureCoverage coverage_of(const CircleClosureModel& model, const Propagation& 
                         .U = propagation.expanded_uncertainty(output),
                         .coverage = std::isinf(nu) ? "normal" : "student_t",
                         .note = {}};
-    // The convolution is that of the contributions of the law.
-    if (share_of_extremes(propagation, output) > 0.0 || convolution_changes_little(model, propagation, output)) {
+    if (share_of_extremes(propagation, output) > 0.0) {
+        // The convolution would be that of the contributions of the law.
+        all.note =
+            "other values may be the largest or the smallest within the uncertainty of measurement, and u allows for "
+            "every one that may be";
+        return all;
+    }
+    if (convolution_changes_little(model, propagation, output)) {
         return all;
     }
     const auto convolved = expand_by_convolution(model, propagation, output);

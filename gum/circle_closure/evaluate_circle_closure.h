@@ -19,7 +19,8 @@ namespace gumcert::gum {
 struct ClosureCoverage {
     double k = 2.0, U = 0.0;
     std::string coverage = "student_t";  ///< where k comes from: "normal", "student_t" or "convolution"
-    std::string note;                    ///< where it is the convolution: why
+    std::string
+        note;  ///< where it is the convolution: why; of a range whose extremes are not clear: that u allows for it
 };
 
 struct CircleClosureMonteCarlo {

@@ -21,8 +21,11 @@ using Eigen::Index;
 
 constexpr std::size_t k_draws_of_errors = 16384;
 constexpr std::size_t k_draws_at_once = 1024;
-// Fewer draws beyond a quantile do not tell where it is.
-constexpr double k_least_draws_beyond = 100.0;
+// u is that of this probability for larger ones, too: k u is then wider than it need be, and u, and with it what is said of conformity,
+// does not depend on the probability for which U is printed.
+constexpr double k_probability_of_u = 0.9545;
+// From here on the errors are drawn from the normal distribution.
+constexpr double k_many_degrees_of_freedom = 1e4;
 // A difference larger than this many of its u is never made up by noise.
 constexpr double k_clear = 5.0;
 
@@ -62,22 +65,6 @@ double deviation_of(const Eigen::MatrixXd& covariance, const Rival& high, const 
                        : deviation_of_difference(covariance, high.at, low[j].at);
 }
 
-/// u for a probability that draws do not reach: the difference of every pair of rivals is within k' u of it, with k' for the
-/// part of the probability of one pair (Bonferroni).
-double by_bonferroni(const std::vector<Rival>& high, const std::vector<Rival>& low, const Eigen::MatrixXd& covariance,
-                     double p, double degrees_of_freedom) {
-    const std::size_t many = std::max<std::size_t>(low.size(), 1);
-    double largest = 0.0;
-    for (const Rival& one : high) {
-        for (std::size_t j = 0; j < many; ++j) {
-            largest = std::max(largest, deviation_of(covariance, one, low, j));
-        }
-    }
-    const auto pairs = static_cast<double>(high.size() * many);
-    return largest * coverage_factor(1.0 - (1.0 - p) / pairs, degrees_of_freedom) /
-           coverage_factor(p, degrees_of_freedom);
-}
-
 /// Draws of errors: normal, or of the multivariate t-distribution with this covariance as the square of its scale.
 class ErrorDraws {
 public:
@@ -98,7 +85,7 @@ private:
     static constexpr std::uint64_t k_seed = 1;  // a digit of U must not change from run to run
 
     static std::vector<InputGroup> groups_of(Eigen::MatrixXd covariance, double nu) {
-        std::vector<InputGroup> groups(std::isinf(nu) ? 1 : 2);
+        std::vector<InputGroup> groups(nu > k_many_degrees_of_freedom ? 1 : 2);
         groups[0].name = "errors of the estimates";
         groups[0].value = Eigen::VectorXd::Zero(covariance.rows());
         groups[0].covariance = std::move(covariance);
@@ -131,8 +118,10 @@ ExtremeValues range_of(Eigen::VectorXd value, Eigen::MatrixXd covariance) {
 
 ExtremeUncertainty extreme_uncertainty(const ExtremeValues& values, double coverage_probability,
                                        double degrees_of_freedom) {
-    const double missed = 2.0 * (1.0 - coverage_probability) / static_cast<double>(values.value.size());
-    // One-sided; of one value alone there is nothing to be told apart.
+    const double p = std::min(coverage_probability, k_probability_of_u);
+    // The extreme one may be any of n, so that n (n - 1) differences are to be held, each on one side; of one value there is none.
+    const auto n = static_cast<double>(values.value.size());
+    const double missed = n > 1.0 ? 2.0 * (1.0 - p) / (n * (n - 1.0)) : 1.0;
     const double c = missed < 1.0 ? coverage_factor(1.0 - missed, degrees_of_freedom) : 0.0;
     const std::vector<Rival> high = rivals_among(values.upper, values, 1.0, c);
     const std::vector<Rival> low = rivals_among(values.lower, values, -1.0, c);
@@ -141,12 +130,6 @@ ExtremeUncertainty extreme_uncertainty(const ExtremeValues& values, double cover
     if (high.size() == 1 && low.size() <= 1) {
         return result;
     }
-    if ((1.0 - coverage_probability) * static_cast<double>(k_draws_of_errors) < k_least_draws_beyond) {
-        result.u =
-            std::max(result.u, by_bonferroni(high, low, values.covariance, coverage_probability, degrees_of_freedom));
-        return result;
-    }
-
     // Only what may be extreme is drawn.
     std::vector<Index> drawn;
     for (const std::vector<Rival>* of : {&high, &low}) {
@@ -180,11 +163,11 @@ ExtremeUncertainty extreme_uncertainty(const ExtremeValues& values, double cover
             of_all.push_back(std::abs(top[r] - bottom[r]));
         }
     }
-    const double by_law = quantile(of_law, coverage_probability);
-    const double by_draws = quantile(of_all, coverage_probability);
+    const double by_law = quantile(of_law, p);
+    const double by_draws = quantile(of_all, p);
     // Largest and smallest may be one value, as where all are equal.
     result.u = by_law > 0.0 ? result.law_u * std::max(1.0, by_draws / by_law)
-                            : by_draws / coverage_factor(coverage_probability, degrees_of_freedom);
+                            : by_draws / coverage_factor(p, degrees_of_freedom);
     return result;
 }
 

@@ -34,13 +34,13 @@ struct ExtremeUncertainty {
 ///   γ_i = max(0, y_max − y_i − c u(y_max − y_i)),   δ_j = max(0, y_j − y_min − c u(y_j − y_min))
 ///   D = max(e_i − γ_i) − min(e_j + δ_j),            u = (quantile p of |D|)/(quantile p of |e_max − e_min|) u(y_max − y_min)
 ///
-/// with c so that all n true differences are larger than the ones taken with a probability of at least p (Bonferroni), and u at least
-/// that of the law. k u with k = t_p(ν) then holds y with a probability of about p or more. Where the extremes are clear nothing is
-/// drawn, and u is that of the law (ADR 0090).
+/// with c so that all n (n − 1) differences are held, each on one side, with a probability of at least p (Bonferroni), and u at least that of
+/// the law. k u with k = t_p(ν) then holds y with a probability of about p or more. p is 0.9545 where U is stated for more: u does not
+/// depend on it then, and k u is on the safe side. Where the extremes are clear nothing is drawn, and u is that of the law (ADR 0090).
 ///
-/// \param coverage_probability  p of the expanded uncertainty that u is for, 0 < p < 1
+/// \param coverage_probability  of the expanded uncertainty that u is for, 0 < p < 1
 /// \param degrees_of_freedom    ν of y, infinite allowed; the errors are drawn from the multivariate t-distribution
-/// Accuracy: 16 384 draws with one seed for ever; one percent of u where the extremes are not clear.
+/// Accuracy: 16 384 draws with one seed for ever; three percent of u where the extremes are not clear.
 [[nodiscard]] ExtremeUncertainty extreme_uncertainty(const ExtremeValues& values, double coverage_probability,
                                                      double degrees_of_freedom);
 

@@ -202,7 +202,7 @@ void widen_positioning(RotaryTableResult& result, double coverage_probability) {
             static_cast<engine::PositioningParameter>(std::find(names.begin(), names.end(), name) - names.begin());
         const engine::PositioningExtremes all =
             engine::positioning_extremes(parameters.runs(), model.nominal_positions(), parameter);
-        const double distance = k_far * result.parameters.standard_uncertainty[i];
+        const double distance = k_far * std::max(result.parameters.standard_uncertainty[i], scope.u_deviation);
         ExtremeValues values{.value = all.value,
                              .covariance = {},
                              .upper = near_extreme(all.upper, all.value, 1.0, distance),
