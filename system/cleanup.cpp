@@ -81,11 +81,9 @@ void forget_child(pid_t child) {
 }
 
 CleanupLock clean_up(std::chrono::milliseconds patience) {
-    // What this thread says at the end may have no reader any more: its handler would wait for the end that this thread is to bring.
-    sigset_t broken_pipe;
-    (void)::sigemptyset(&broken_pipe);
-    (void)::sigaddset(&broken_pipe, SIGPIPE);
-    (void)::pthread_sigmask(SIG_BLOCK, &broken_pipe, nullptr);
+    // What is said at the end may have no reader any more: the handler would wait for the end that this thread is to bring. Not blocked
+    // in this thread: it would not end by the signal itself then.
+    (void)std::signal(SIGPIPE, SIG_IGN);
     CleanupLock lock(everything().mutex, std::defer_lock);
     if (!lock.try_lock_for(patience)) {
         return lock;

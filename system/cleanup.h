@@ -26,7 +26,7 @@ void remember_child(pid_t child);
 void forget_child(pid_t child);
 
 /// Ends the children, then removes files and folders. For a thread that ends the program next, not for a handler of
-/// signals. Other threads may still be at work: while the lock is held they make nothing new. The thread gets no SIGPIPE any more.
+/// signals. Other threads may still be at work: while the lock is held they make nothing new. SIGPIPE is ignored from here on.
 /// \param patience  how long it waits for work that holds the lock
 /// \return the lock; not owned: it was not to be had, and nothing was cleaned up
 [[nodiscard]] CleanupLock clean_up(std::chrono::milliseconds patience);
