@@ -26,6 +26,13 @@ TEST(ContributorOf, reads_words_of_both_languages) {
     const std::vector<Case> cases{
         {"Repeatability", "", Contributor::repeatability},
         {"Wiederholpräzision", "", Contributor::repeatability},
+        {"Empuje del aire", "", Contributor::environment},
+        {"Poussée de l'air", "", Contributor::environment},
+        {"空氣浮力", "", Contributor::environment},
+        {"Estabilidad del patrón", "", Contributor::reference_drift},
+        {"Coefficient de dilatation", "", Contributor::expansion},
+        {"熱膨脹係數", "", Contributor::expansion},
+        {"Estabilidad del baño", "", Contributor::environment},
         {"standard deviation of readings", "", Contributor::repeatability},
         {"Reproducibility (operators)", "", Contributor::reproducibility},
         {"Resolution of DUT", "", Contributor::item_resolution},
@@ -172,6 +179,17 @@ TEST(ReadComment, counts_readings) {
     ASSERT_TRUE(pooled.nu);
     EXPECT_EQ(pooled.nu->value, 54.0);
     EXPECT_EQ(pooled.n, 3U);
+    for (const char* const comment :
+         {"s de la media de 10 pesadas", "promedio de 10", "10 lecturas", "moyenne de 10 pesées", "10 mesures"}) {
+        EXPECT_EQ(row_with(comment).n, 10U) << comment;
+    }
+    for (const char* const comment :
+         {"température moyenne de 3 °C", "temperatura media de 20 °C", "moyenne de 3 h", "media de 3 mV",
+          "moyenne de 3 jours", "tensión media de 20 voltios", "mean of 3 °C", "Mittel von 20 °C", "mean of 3 mV",
+          "average over 5 min", "mean of 20 degrees"}) {
+        EXPECT_FALSE(row_with(comment).n) << comment;
+    }
+    EXPECT_EQ(row_with("mean of 3 in air").n, 3U);
     EXPECT_FALSE(row_with("n = 1.000271, refractive index").n);
     EXPECT_EQ(row_with("largest s of 9 points, n = 3 per direction").n, 3U);
     EXPECT_EQ(row_with("n = 4", "um", "difference of the gauges").contributor, Contributor::repeatability);
