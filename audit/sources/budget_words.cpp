@@ -879,6 +879,34 @@ bool is_square(std::string_view head) {
 
 }  // namespace
 
+std::optional<LimitHead> limit_head(std::string_view head) {
+    if (head.find_first_of("0123456789=") != std::string_view::npos) {
+        return std::nullopt;
+    }
+    std::string_view bare = head.substr(0, head.find_first_of("([/,"));
+    while (bare.ends_with(' ')) {
+        bare.remove_suffix(1);
+    }
+    const std::string_view symbol = bare.substr(bare.find_last_of(' ') + 1);  // npos + 1 is 0
+    constexpr std::array<std::string_view, 3> k_upper_symbols{"a+", "a₊", "a_+"};
+    constexpr std::array<std::string_view, 5> k_lower_symbols{"a-", "a−", "a₋", "a_-", "a_−"};
+    if (std::find(k_upper_symbols.begin(), k_upper_symbols.end(), symbol) != k_upper_symbols.end()) {
+        return LimitHead::upper;
+    }
+    if (std::find(k_lower_symbols.begin(), k_lower_symbols.end(), symbol) != k_lower_symbols.end()) {
+        return LimitHead::lower;
+    }
+    const std::u32string letters = certificate::letters_of(bare);
+    constexpr std::array<std::u32string_view, 5> k_lower{U"lower", U"lowerlimit", U"lowerbound", U"untergrenze",
+                                                         U"unteregrenze"},
+        k_upper{U"upper", U"upperlimit", U"upperbound", U"obergrenze", U"oberegrenze"};
+    if (std::find(k_lower.begin(), k_lower.end(), letters) != k_lower.end()) {
+        return LimitHead::lower;
+    }
+    return std::find(k_upper.begin(), k_upper.end(), letters) != k_upper.end() ? std::optional(LimitHead::upper)
+                                                                               : std::nullopt;
+}
+
 bool is_unused_column(std::string_view head) {
     head = trimmed(head);
     const auto has_letters = std::any_of(head.begin(), head.end(), is_letter);
@@ -976,6 +1004,9 @@ std::optional<Column> relative_column_of(std::string_view head, std::string_view
 
 std::optional<Column> column_of(std::string_view head) {
     head = trimmed(head);
+    if (limit_head(head)) {  // "a-" beside "a+" is none of half-widths
+        return std::nullopt;
+    }
     // "u_i ≡ |c_i| u(x_i) (nm)": a symbol and what it stands for (JCGM 100:2008, table H.1).
     if (const std::size_t at = head.find(" ≡ "); at != std::string_view::npos && at > 0) {
         return column_of(head.substr(0, at));

@@ -20,6 +20,7 @@
 #include "audit/row_meaning.h"
 #include "audit/sources/budget_words.h"
 #include "audit/sources/correlation_words.h"
+#include "audit/sources/limits_of_rows.h"
 #include "audit/sources/parts_of_value.h"
 #include "audit/sources/result_lines.h"
 #include "audit/sources/sheet_view.h"
@@ -69,6 +70,10 @@ public:
         std::string none;
         read.divisor = number(Column::divisor, none);
         read.u = number(Column::u, units.u);
+        if (std::optional<NumberWithUnit> half = half_width_of_limits(sheet_, heads_, row_); half && !read.stated) {
+            read.stated = std::move(half->number);
+            units.stated = half->unit.empty() ? heads_.units.at(Column::stated) : half->unit;
+        }
         read.sensitivity = number(Column::sensitivity, units.sensitivity);
         read.contribution = number(Column::contribution, units.contribution);
         read.nu = number(Column::nu, none);
