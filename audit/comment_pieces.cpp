@@ -218,7 +218,12 @@ std::optional<NumberOfRow> in_unit_of_row(const Piece& piece, const AuditedRow& 
 
 bool has_unit(const Piece& number) {
     const std::string_view behind = number.behind;
-    const bool is_word = is_word_and_unit(number.unit) || number.unit == "day" || number.unit == "days";
+    // What is repeated has such names as well: "mean of 5 turns".
+    constexpr std::array<std::string_view, 14> k_repeated{"turn",  "turns",  "rev",   "revolution", "revolutions",
+                                                          "cycle", "cycles", "count", "counts",     "d",
+                                                          "day",   "days",   "week",  "weeks"};
+    const bool is_word = is_word_and_unit(number.unit) ||
+                         std::find(k_repeated.begin(), k_repeated.end(), number.unit) != k_repeated.end();
     return behind.starts_with("°") || behind.starts_with("deg") || behind.starts_with("Grad") ||
            (!is_word && !number.unit.empty() && unit_of(number.unit));
 }

@@ -352,7 +352,6 @@ std::optional<std::size_t> count_of_readings(const Pieces& pieces) {
             }
         }
     }
-    constexpr std::string_view k_ends = ",;.:)";
     std::optional<std::size_t> qualified;  // "3 single measurements of 5 readings" are 5 readings
     for (std::size_t i = 0; i < pieces.size(); ++i) {
         const Piece& piece = pieces[i];
@@ -361,20 +360,15 @@ std::optional<std::size_t> count_of_readings(const Pieces& pieces) {
                        return pieces[i + ahead].begins(beginning);
                    });
         };
-        const bool mean = piece.begins("mean") || piece.begins("average") || piece.begins("mittel") ||
-                          piece.word == "media" || piece.word == "promedio" || piece.word == "moyenne" ||
-                          piece.raw == "s";
+        const bool mean = piece.begins("mean") || piece.begins("average") || piece.begins("mittel") || piece.raw == "s";
         const auto counts_readings = [&](std::size_t ahead) {
             return follows(ahead, {"reading", "measurement", "repetition", "repeat", "messung", "ablesung",
                                    "wiederholung", "einzelmess", "observation", "lectura", "medicion", "pesada",
                                    "repeticion", "observacion", "lecture", "mesure", "pesee", "weighing", "wagung"});
         };
-        // In Romance languages an adjective is called so as well: "temperatura media de 20 grados".
-        const bool ends = i + 3 >= pieces.size() || (pieces[i + 3].kind == Piece::Kind::sign &&
-                                                     k_ends.find(pieces[i + 3].raw) != std::string_view::npos);
-        const bool of_mean =
-            follows(1, {"of", "aus", "von", "over", "uber"}) || (follows(1, {"de"}) && (ends || counts_readings(3)));
-        if (mean && of_mean && i + 2 < pieces.size() && !has_unit(pieces[i + 2])) {
+        // "Media de" and "moyenne de" alone count nothing, as an adjective is called so as well: "temperatura media de 3".
+        const bool of_mean = mean && follows(1, {"of", "aus", "von", "over", "uber"}) && i + 2 < pieces.size();
+        if (of_mean && (!has_unit(pieces[i + 2]) || counts_readings(4))) {  // "mean of 10 mV readings"
             if (const std::optional<std::size_t> count = count_of(pieces[i + 2])) {
                 return count;
             }
@@ -394,16 +388,19 @@ std::optional<std::size_t> count_of_readings(const Pieces& pieces) {
     return qualified;
 }
 
-/// "ν = 9", "dof 9", "9 degrees of freedom", "Freiheitsgrade: 9".
+/// "ν = 9", "dof 9", "9 degrees of freedom", "Freiheitsgrade: 9", "9 grados de libertad".
 std::optional<double> degrees_of_freedom(const Pieces& pieces) {
     for (std::size_t i = 0; i < pieces.size(); ++i) {
         const Piece& piece = pieces[i];
         if (piece.kind != Piece::Kind::word) {
             continue;
         }
-        const bool behind = piece.begins("freiheitsgrad") || piece.begins("degrees") || piece.word == "dof";
+        const bool romance = (piece.begins("grado") || piece.begins("degre")) && i + 2 < pieces.size() &&
+                             pieces[i + 1].word == "de" && pieces[i + 2].begins("libert");
+        const bool behind = piece.begins("freiheitsgrad") || piece.begins("degrees") || piece.word == "dof" || romance;
         const bool symbol = piece.raw == "ν" || piece.raw == "nu" || piece.raw == "df" || piece.word == "dof" ||
-                            piece.begins("freiheitsgrad") || piece.word == "freedom";
+                            piece.begins("freiheitsgrad") || piece.word == "freedom" || piece.word == "libertad" ||
+                            piece.word == "liberte";
         std::size_t next = i + 1;
         while (symbol && next < pieces.size() && is_filler(pieces[next])) {
             ++next;
