@@ -1012,9 +1012,6 @@ std::optional<Column> relative_column_of(std::string_view head, std::string_view
 
 std::optional<Column> column_of(std::string_view head) {
     head = trimmed(head);
-    if (limit_head(head)) {  // "a-" beside "a+" is none of half-widths
-        return std::nullopt;
-    }
     // "u_i ≡ |c_i| u(x_i) (nm)": a symbol and what it stands for (JCGM 100:2008, table H.1).
     if (const std::size_t at = head.find(" ≡ "); at != std::string_view::npos && at > 0) {
         return column_of(head.substr(0, at));

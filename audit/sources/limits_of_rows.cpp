@@ -112,6 +112,35 @@ bool are_divided(const SheetView& sheet, const SheetView::Row& row, const Heads&
     return (proofs > 0 || right >= k_least_right) && slips <= proofs + right / k_least_right;
 }
 
+/// Whether a table may have limits: nothing else is divided, and its u stand in one column beside their distributions.
+bool may_have_limits(const Heads& heads) {
+    const auto has = [&heads](Column column) { return heads.columns.contains(column); };
+    return !has(Column::stated) && !has(Column::divisor) && has(Column::u) &&
+           (has(Column::distribution) || has(Column::type)) && !heads.unit_columns.contains(Column::u) &&
+           !heads.type_b.contains(Column::u);
+}
+
+/// Whether two numbers of one of the rows below heads are not of one size.
+bool differ_in_size(const SheetView& sheet, const SheetView::Row& row,
+                    const std::pair<std::uint32_t, std::uint32_t>& columns) {
+    std::uint32_t last = 0;
+    for (const Cell* cell : row) {
+        last = std::max(last, cell->address.row);
+    }
+    for (auto at = sheet.rows().upper_bound(last); at != sheet.rows().end() && at->first <= last + 2; ++at) {
+        last = at->first;
+        const Cell *one = cell_in(at->second, columns.first), *other = cell_in(at->second, columns.second);
+        const std::optional<NumberWithUnit> a = one == nullptr ? std::nullopt : sheet.number_with_unit(*one),
+                                            b = other == nullptr ? std::nullopt : sheet.number_with_unit(*other);
+        if (a && b &&
+            std::abs(std::abs(a->number.value) - std::abs(b->number.value)) >
+                a->number.half_step + b->number.half_step) {
+            return true;
+        }
+    }
+    return false;
+}
+
 }  // namespace
 
 std::optional<NumberWithUnit> half_width_of_limits(const SheetView& sheet, const Heads& heads,
@@ -148,31 +177,49 @@ std::optional<NumberWithUnit> half_width_of_limits(const SheetView& sheet, const
 }
 
 void take_limits(const SheetView& sheet, const SheetView::Row& row, Heads& heads) {
-    const auto has = [&heads](Column column) { return heads.columns.contains(column); };
-    if (has(Column::stated) || has(Column::divisor) || !has(Column::u) ||
-        (!has(Column::distribution) && !has(Column::type)) || heads.unit_columns.contains(Column::u) ||
-        heads.type_b.contains(Column::u)) {
-        return;
-    }
     std::vector<const Cell*> lower, upper;
-    for (const Cell* cell : heads.unknown) {
-        if (const std::optional<LimitHead> limit = limit_head(sheet.words(*cell))) {
+    for (const Cell* cell : row) {
+        if (const std::optional<LimitHead> limit =
+                sheet.head(*cell).is_text ? limit_head(sheet.words(*cell)) : std::nullopt) {
             (*limit == LimitHead::lower ? lower : upper).push_back(cell);
         }
     }
-    if (lower.size() != 1 || upper.size() != 1 ||
-        unit_in_head(sheet.words(*lower.front())) != unit_in_head(sheet.words(*upper.front()))) {
+    if (lower.size() != 1 || upper.size() != 1) {
         return;
     }
-    heads.limits = {lower.front()->address.column, upper.front()->address.column};
-    heads.units[Column::stated] = unit_in_head(sheet.words(*upper.front()));
-    if (!are_divided(sheet, row, heads)) {
-        heads.limits.reset();
+    const std::pair limits(lower.front()->address.column, upper.front()->address.column);
+    // "a-" alone is the head of half-widths, and stays it where the two are not taken.
+    Heads taken = heads;
+    const auto stated = heads.columns.find(Column::stated);
+    const bool is_half_width =
+        stated != heads.columns.end() && (stated->second == limits.first || stated->second == limits.second);
+    if (is_half_width) {
+        taken.columns.erase(Column::stated);
+        taken.units.erase(Column::stated);
+    }
+    if (may_have_limits(taken) &&
+        unit_in_head(sheet.words(*lower.front())) == unit_in_head(sheet.words(*upper.front()))) {
+        taken.limits = limits;
+        taken.units[Column::stated] = unit_in_head(sheet.words(*upper.front()));
+        if (are_divided(sheet, row, taken)) {
+            for (const Cell* cell : {lower.front(), upper.front()}) {
+                std::erase(taken.unknown, cell);
+                std::erase(taken.second, cell);
+            }
+            heads = std::move(taken);
+            return;
+        }
+    }
+    // Neither of two that differ in size is a half-width.
+    if (is_half_width && differ_in_size(sheet, row, limits)) {
+        heads.columns.erase(Column::stated);
         heads.units.erase(Column::stated);
-        return;
+        for (const Cell* cell : {lower.front(), upper.front()}) {
+            std::erase(heads.second, cell);
+            std::erase(heads.unknown, cell);
+            heads.unknown.push_back(cell);
+        }
     }
-    std::erase(heads.unknown, lower.front());
-    std::erase(heads.unknown, upper.front());
 }
 
 }  // namespace gumcert::audit

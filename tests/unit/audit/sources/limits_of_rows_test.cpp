@@ -120,6 +120,28 @@ TEST(TakeLimits, LeavesCoverageIntervalsAndMagnitudes) {
     EXPECT_TRUE(names_as_unread(magnitudes, "a-") && names_as_unread(magnitudes, "a+"));
 }
 
+TEST(TakeLimits, LeavesAHalfWidthWhatItIs) {
+    const auto finds_undivided = [](const std::string& table) {
+        return accusations_of_limits(report_of_limits(table)).find("U08") != std::string::npos;
+    };
+    // No row shows that they are limits.
+    EXPECT_TRUE(
+        finds_undivided("Quantity,Estimate,Unit,a-,a+,Distribution,Standard uncertainty\n"
+                        "Reference,0,mV,-0.2,0.2,triangular,0.200\nDrift,0,mV,-0.02,0.02,rectangular,0.0200\n"
+                        "u_c,,mV,,,,0.201\nU (k = 2),,mV,,,,0.402\n"));
+    // Of one size in each row.
+    EXPECT_TRUE(
+        finds_undivided("Quantity,Estimate,Unit,a-,a+,Distribution,Standard uncertainty\n"
+                        "Reference,0,mV,0.2,0.2,triangular,0.200\nDrift,0,mV,0.05,0.05,triangular,0.0204\n"
+                        "u_c,,mV,,,,0.201\nU (k = 2),,mV,,,,0.402\n"));
+    for (const char* const head : {"a+", "a-", "Limit a-"}) {
+        EXPECT_TRUE(finds_undivided("Quantity,Unit," + std::string(head) +
+                                    ",Distribution,Standard uncertainty\nReference,mV,0.05,rectangular,0.0289\n"
+                                    "Drift,mV,0.08,rectangular,0.0800\nu_c,mV,,,0.0851\nU (k = 2),mV,,,0.170\n"))
+            << head;
+    }
+}
+
 TEST(HalfWidthOfLimits, IsNothingWithoutLimits) {
     const workbook::Workbook book = workbook::read_csv("Quantity,u\nA,1\n", "b.csv", "b");
     const workbook::Evaluation evaluation;
