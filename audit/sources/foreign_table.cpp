@@ -1069,13 +1069,16 @@ private:
     }
     /// Whether nothing says how rows make up a result: they have no coefficients and no contributions, and their units cannot be added, or
     /// are not there beside a column that is not read. A sum of their u is a number of nobody. Where something is stated, that is known
-    /// where it does not follow from the rows as they stand, no more than half of them are in its unit, and a product of them is.
+    /// where it does not follow from the rows as they stand, no more than half of them are in its unit, and a product of them is; of rows
+    /// of one dimension a quotient or power may be, where none is in its unit.
     [[nodiscard]] bool has_no_sum() {
         std::set<std::string> units;
         bool differ = false;
         std::size_t in_its_unit = 0;
+        const bool is_stated = budget_.claims.u_c || budget_.claims.U;
         for (const AuditedRow& row : budget_.rows) {
-            if (row.sensitivity || row.contribution ||
+            // One that is the conversion of a unit says nothing of the model.
+            if (have_coefficients_ || (!is_stated && row.sensitivity) || row.contribution ||
                 (row.unit != "1" && !row.unit.empty() && !known_unit(row.unit))) {
                 return false;
             }
@@ -1083,7 +1086,8 @@ private:
             in_its_unit += factor_between(row.unit, budget_.unit) ? 1U : 0U;
             units.insert(row.unit);
         }
-        if (budget_.claims.u_c || budget_.claims.U) {
+        if (is_stated) {
+            differ = differ || (in_its_unit == 0 && known_unit(budget_.unit));
             if (!differ || 2 * in_its_unit > budget_.rows.size() || !may_be_product() || follows_from_rows()) {
                 return false;
             }
@@ -1338,9 +1342,10 @@ private:
     }
     /// The value of a row, or of the line of a result, as a factor; the unit is that of its cell or head, else of the row.
     [[nodiscard]] static Factor factor_of(const StatedNumber& number, const std::string& unit) {
-        return {.value = number.value,
-                .relative_half_step = number.value != 0.0 ? std::abs(number.half_step / number.value) : 0.0,
-                .unit = unit};
+        return {.value = number.value, .relative_half_step = relative_half_step(number), .unit = unit};
+    }
+    [[nodiscard]] static double relative_half_step(const StatedNumber& number) {
+        return number.value != 0.0 ? std::abs(number.half_step / number.value) : 0.0;
     }
     /// How the values of rows without coefficients make up that of the result as a product or quotient, as in chemistry. The result may
     /// be the last row, without a name that is known, where U is k times its u, and no line states u_c.
@@ -1405,54 +1410,65 @@ private:
         const std::optional<double> factor = factor_between(sums().unit_of(U->second), sums().unit_of(amount));
         return k > 1.0 && factor && as_rounded(U->second.number, k / *factor).meets(as_rounded(amount.number, 1.0));
     }
-    /// Whether a number is u_c of the rows as those of a product: its part of the value is the root of the sum of squares of theirs.
+    /// Whether a number is u_c of the rows with c = y/x, within the digits of all.
     [[nodiscard]] bool is_u_c_of_product(const StatedResult& amount) {
         const StatedResult& result = statements_.numbers.at(Statement::value);
-        const StatedNumber& value = result.number;
-        const std::string unit = sums().unit_of(amount), of_value = sums().unit_of(result);
-        const double to_value = unit.empty() ? 1.0 : factor_between(unit, of_value).value_or(0.0);
-        double squares = 0.0;
+        const std::string unit = sums().unit_of(amount);
+        const double to_value = unit.empty() ? 1.0 : factor_between(unit, sums().unit_of(result)).value_or(0.0);
+        if (to_value == 0.0) {
+            return false;
+        }
+        AuditedBudget product;
+        product.claims.u_c = amount.number;
         for (std::size_t i = 0; i < budget_.rows.size(); ++i) {
             const double factor = factor_between(units_[i].u, units_[i].estimate).value_or(0.0);
-            const double part = budget_.rows[i].u->value * factor / budget_.rows[i].estimate->value;
-            squares += part * part;
+            const double c = result.number.value / budget_.rows[i].estimate->value * factor / to_value;
+            product.rows.push_back(with_coefficient(budget_.rows[i], c, result.number));
         }
-        constexpr double k_digits = 0.02;  // relative: of u of the rows
-        const double expected = std::abs(value.value) * std::sqrt(squares);
-        return std::abs(amount.number.value * to_value - expected) <=
-               2.0 * amount.number.half_step * to_value + k_digits * expected;
+        const ClaimCheck check = check_u_c(product);
+        return check.allowed && !check.u_c_outside;
     }
-    /// Whether what is stated follows from u as parts of the values, or percentages, that a head does not call so.
-    [[nodiscard]] bool may_be_relative(const std::vector<AuditedRow>& rows) const {
-        const double squares = std::accumulate(rows.begin(), rows.end(), 0.0, [](double sum, const AuditedRow& row) {
-            return sum + row.u->value * row.u->value;
-        });
-        const double k = budget_.claims.u_c || !budget_.claims.k ? 1.0 : budget_.claims.k->value;
-        const std::optional<StatedNumber>& stated = budget_.claims.u_c ? budget_.claims.u_c : budget_.claims.U;
-        constexpr double k_digits = 0.05;
-        const double size = std::abs(budget_.claims.value->value) * std::sqrt(squares) * k;
-        return std::abs(stated->value - size) <= k_digits * size + 2.0 * stated->half_step ||
-               std::abs(stated->value - 0.01 * size) <= k_digits * 0.01 * size + 2.0 * stated->half_step;
+    /// A row with a coefficient as the value of the result and its own one leave it open.
+    [[nodiscard]] static AuditedRow with_coefficient(AuditedRow row, double c, const StatedNumber& value) {
+        row.sensitivity = exact_number(c, row.place);
+        row.sensitivity->half_step = std::abs(c) * (relative_half_step(value) + relative_half_step(*row.estimate));
+        complete_row(row);
+        return row;
+    }
+    /// Whether U is a part beside a value that is one as well: 3.1 % of 667 mg/kg, or of what 667 mg/kg are of.
+    [[nodiscard]] bool has_U_of_open_part() {
+        const auto U = statements_.numbers.find(Statement::U), value = statements_.numbers.find(Statement::value);
+        if (U == statements_.numbers.end() || value == statements_.numbers.end()) {
+            return false;
+        }
+        const std::string of_U = sums().unit_of(U->second), of_value = sums().unit_of(value->second);
+        return is_unit_of_part(of_U) && of_U != of_value && factor_between(of_U, of_value);
     }
     /// Gives the rows of a product y = Π x^e their sensitivity coefficients, e y/x, unless their u were added as they stand. What is stated
     /// has to follow, or to follow from no exponents that fit.
     void settle_product() {
         const std::optional<StatedNumber>& value = budget_.claims.value;
-        if (!product_ || is_told_ || is_unusable_ || !value) {
+        if (!product_ || is_told_ || is_unusable_) {
             product_.reset();
+            return;
+        }
+        if (!value) {  // it is in another unit than what the rows are held against, as U in %
+            leave_product();
             return;
         }
         const std::vector<AuditedRow> as_they_stand = budget_.rows;
         const auto take = [&](const std::vector<double>& exponents) {
-            budget_.rows = as_they_stand;
             for (std::size_t i = 0; i < exponents.size(); ++i) {
-                AuditedRow& row = budget_.rows[i];
-                StatedNumber c = exact_number(exponents[i] * value->value / row.estimate->value, row.place);
-                c.half_step = std::abs(c.value) * (factor_of(*value, "").relative_half_step +
-                                                   factor_of(*row.estimate, "").relative_half_step);
-                row.sensitivity = std::move(c);
-                complete_row(row);
+                const AuditedRow& row = as_they_stand[i];
+                budget_.rows[i] = with_coefficient(row, exponents[i] * value->value / row.estimate->value, *value);
             }
+        };
+        // u that are parts of the values, or percentages, that a head does not call so.
+        const auto may_be_relative = [&](double unit_of_part) {
+            for (std::size_t i = 0; i < as_they_stand.size(); ++i) {
+                budget_.rows[i] = with_coefficient(as_they_stand[i], unit_of_part * value->value, *value);
+            }
+            return follows_from_rows();
         };
         const bool is_stated = budget_.claims.u_c || budget_.claims.U;
         const bool states_other = statements_.numbers.contains(Statement::u_c) ||
@@ -1467,9 +1483,11 @@ private:
             return;
         }
         const bool is_one = product_->choices.size() == 1 && product_->has_all_choices;
-        bool is_open = (!is_stated && states_other) || (is_correlated && !is_one);
+        bool is_open = (!is_stated && states_other) || (is_correlated && !is_one) ||
+                       (has_U_of_open_part() && check_claims(budget_).U_outside);
         if (is_stated && !follows && !is_open) {
-            is_open = product_->has_equal_factors || !product_->has_all_choices || may_be_relative(as_they_stand) ||
+            is_open = product_->has_equal_factors || !product_->has_all_choices || may_be_relative(1.0) ||
+                      may_be_relative(0.01) ||
                       std::any_of(product_->choices.begin() + 1, product_->choices.end(), [&](const auto& choice) {
                           take(choice);
                           return follows_from_rows();
@@ -1529,6 +1547,10 @@ private:
         std::optional<StatedResult> amount = number(Column::contribution, Statement::u_c);
         amount = amount ? amount : number(Column::u, Statement::u_c);
         if (amount && product_ && (is_u_c_of_stated_U(*amount) || is_u_c_of_product(*amount))) {
+            const auto value = statements_.numbers.find(Statement::value);
+            if (value != statements_.numbers.end() && sums().unit_of(*amount).empty()) {
+                amount->unit = sums().unit_of(value->second);  // whatever U is stated in
+            }
             sums().state(Statement::u_c, std::move(amount));
             sums().state(Statement::nu_eff, number(Column::nu, Statement::nu_eff));
             return;
@@ -1589,6 +1611,8 @@ private:
         });
         state_claims(budget_, statements_, of_contributions, has_no_units ? unit_in_words_ : unit_of_rows(),
                      tables_.not_read);
+        have_coefficients_ = std::any_of(budget_.rows.begin(), budget_.rows.end(),
+                                         [](const AuditedRow& row) { return row.sensitivity.has_value(); });
         is_unusable_ = !settle_units(budget_.rows, units_, budget_.unit, tables_.not_read) || is_unusable_;
         for (AuditedRow& row : budget_.rows) {
             settle_words(row);
@@ -1695,6 +1719,7 @@ private:
     bool is_told_ = false;            ///< why the table is not looked at
     bool is_too_long_ = false;
     bool is_unusable_ = false;              ///< a row has an uncertainty that could not be read
+    bool have_coefficients_ = false;        ///< rows state them
     std::optional<ProductOfRows> product_;  ///< that the values of the rows make up, where they do
     AuditedBudget budget_;
     std::vector<RowUnits> units_;    ///< of its rows

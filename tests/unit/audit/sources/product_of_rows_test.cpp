@@ -214,6 +214,45 @@ TEST(ProductOfRows, IsNotLookedAtWhereItsCoefficientsAreOpen) {
               "");
 }
 
+/// The law: a product whose U is a part of the result is none of sums, whatever stands beside the value.
+TEST(ProductOfRows, WithUInPercentIsNoSum) {
+    std::mt19937 random(20261201);
+    for (int trial = 0; trial < 60; ++trial) {
+        const ModelOfProduct& model = k_models_of_products[static_cast<std::size_t>(trial) % 5];
+        const MadeProduct made = made_product(model, random);
+        const std::string u = trial % 2 == 0 ? text::significant(made.u_c, 4) : "";
+        const AuditReport report = report_of_product(made.rows + "Result," + text::significant(made.value, 6) + "," +
+                                                     model.unit + "," + u + "\nExpanded uncertainty (k = 2),,%," +
+                                                     text::significant(200.0 * made.u_c / made.value, 4) + "\n");
+        EXPECT_EQ(accused_sums(report), "") << made.rows << u;
+    }
+}
+
+TEST(ProductOfRows, OfOneDimensionOrInOtherUnitsIsNoSum) {
+    for (const char* const rows :
+         {"Flask,9.32359,mL,0.0027\nPipette,4.03054,mL,0.0016\nResult,2.31323,1,0.0011\nU (k = 2),,1,0.0023\n",
+          "Power out,951.0,W,1.1\nPower in,1002.0,W,1.2\nu_c,,1,0.0016\nU (k = 2),,1,0.0032\n",
+          "Diameter,10.000,mm,0.010\nu_c,,mm2,0.157\nU (k = 2),,mm2,0.314\n",
+          "Titrant,0.100201,mol/L,0.000068\nVolume,20.792,mL,0.040\nAliquot,25.027,mL,0.010\nu_c,,mmol/L,0.17\n"
+          "U (k = 2),,mmol/L,0.34\n"}) {
+        const AuditReport report = report_of_product("Quantity,Value,Unit,Standard uncertainty\n" + std::string(rows));
+        EXPECT_EQ(accused_sums(report), "") << rows;
+        EXPECT_TRUE(says_of_product(report, "as a sum or as a product of their values")) << rows;
+    }
+    // No power of volts is a temperature.
+    EXPECT_TRUE(finds_in_product(report_of_product("Quantity,Unit,Standard uncertainty\nReference,V,0.0010\n"
+                                                   "Drift,V,0.0010\nu_c,°C,0.050\nU (k = 2),°C,0.10\n"),
+                                 "S01"));
+    // A result in another language is one.
+    for (const char* const name : {"Resultado", "Résultat", "結果", "结果"}) {
+        EXPECT_TRUE(says_of_product(report_of_product("Quantity,Value,Unit,Standard uncertainty\n"
+                                                      "Voltage,20.00,V,0.10\nResistance,5.000,Ω,0.010\n" +
+                                                      std::string(name) + ",4.000,A,0.0215\nU (k = 2),,A,0.043\n"),
+                                    "c = y/x is taken for each"))
+            << name;
+    }
+}
+
 TEST(ProductOfRows, OfOnesIsTheSameAsASumOfNumbers) {
     const AuditReport ones = report_of_product(
         "Quantity,Value,Unit,Standard uncertainty\nMass,1.000,g,0.010\nVolume,1.000,L,0.020\nResult,1.000,g/L,0.0224\n"
