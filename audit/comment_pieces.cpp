@@ -109,6 +109,12 @@ std::optional<std::pair<Piece, std::size_t>> number_piece(std::string_view text,
     return std::pair(std::move(piece), end);
 }
 
+/// Words that are units as well, and in a sentence are none.
+bool is_word_and_unit(std::string_view text) {
+    constexpr std::array<std::string_view, 5> k_words{"in", "a", "at", "as", "am"};
+    return std::find(k_words.begin(), k_words.end(), text) != k_words.end();
+}
+
 std::optional<gum::Unit> unit_of(const std::string& text) {
     try {
         return gum::Unit::parse(text);
@@ -190,9 +196,7 @@ std::optional<NumberOfRow> in_unit_of_row(const Piece& piece, const AuditedRow& 
         const bool of_percent = row.unit.find('%') != std::string::npos;
         return of_percent ? number_of_row(100.0 * size) : std::nullopt;
     }
-    // Words that are units as well, and in a sentence are none.
-    constexpr std::array<std::string_view, 5> k_words{"in", "a", "at", "as", "am"};
-    if (piece.unit.empty() || std::find(k_words.begin(), k_words.end(), piece.unit) != k_words.end()) {
+    if (piece.unit.empty() || is_word_and_unit(piece.unit)) {
         return NumberOfRow{size, piece.unit == row.unit && !row.unit.empty()};
     }
     const bool several_words = row.unit.find(' ') != std::string::npos && piece.behind.starts_with(row.unit);
@@ -210,6 +214,18 @@ std::optional<NumberOfRow> in_unit_of_row(const Piece& piece, const AuditedRow& 
         return std::nullopt;
     }
     return number_of_row(own->difference_from_si(unit->difference_to_si(size)));
+}
+
+bool has_unit(const Piece& number) {
+    const std::string_view behind = number.behind;
+    // What is repeated has such names as well: "mean of 5 turns".
+    constexpr std::array<std::string_view, 14> k_repeated{"turn",  "turns",  "rev",   "revolution", "revolutions",
+                                                          "cycle", "cycles", "count", "counts",     "d",
+                                                          "day",   "days",   "week",  "weeks"};
+    const bool is_word = is_word_and_unit(number.unit) ||
+                         std::find(k_repeated.begin(), k_repeated.end(), number.unit) != k_repeated.end();
+    return behind.starts_with("°") || behind.starts_with("deg") || behind.starts_with("Grad") ||
+           (!is_word && !number.unit.empty() && unit_of(number.unit));
 }
 
 bool is_filler(const Piece& piece) {

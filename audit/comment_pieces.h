@@ -42,6 +42,9 @@ struct NumberOfRow {
 /// Nothing where the number is of another kind, or is 0.
 [[nodiscard]] std::optional<NumberOfRow> in_unit_of_row(const Piece& piece, const AuditedRow& row);
 
+/// Whether a number is one of a quantity: "mean of 3 °C" are no 3 readings; "mean of 3 in air", "of 3 days" and "of 5 turns" may be.
+[[nodiscard]] bool has_unit(const Piece& number);
+
 /// Words and signs that may stand between a keyword and its number.
 [[nodiscard]] bool is_filler(const Piece& piece);
 [[nodiscard]] bool ends_sentence(const Piece& piece);

@@ -35,7 +35,8 @@ bool names_reference(const WordLine& words) {
 }
 bool names_item(const WordLine& words) {
     return words.has_any({"dut ", "uut ", "iut ", "item", "prufling", "pruefling", "kalibriergegenstand",
-                          "device under", "unit under", "instrument under", "customer", "kunden"});
+                          "device under", "unit under", "instrument under", "customer", "kunden", "calibrando",
+                          "equipo bajo", "instrument a etalonner", "*被校", "*待校"});
 }
 
 /// What a row is made of, whatever device it belongs to; `other` where the words name no kind of effect.
@@ -55,19 +56,27 @@ Contributor kind_of_effect(const WordLine& words, std::string_view raw) {
                        "quantiz",        "resoluc",        "*解析度",    "*分辨力",        "*分辨率"})) {
         return names_reference(words) ? Contributor::reference_resolution : Contributor::item_resolution;
     }
-    if (words.has_any({"bath ",        "bad ",       "badhomogen", "furnace",          "ofen",     "chamber",
-                       "kammer",       "homogen",    "inhomogen",  "humidity",         "feuchte",  "luftfeucht",
-                       "air pressure", "luftdruck",  "barometric", "ambient pressure", "buoyancy", "auftrieb",
-                       "air density",  "luftdichte", "vibration",  "environment",      "umgebung"})) {
-        return words.has("temperatur") && !words.has_any({"bath ", "bad ", "furnace", "ofen", "homogen"})
+    if (words.has_any({"bath ",        "bad ",        "badhomogen",  "furnace",
+                       "ofen",         "chamber",     "kammer",      "homogen",
+                       "inhomogen",    "humidity",    "feuchte",     "luftfeucht",
+                       "air pressure", "luftdruck",   "barometric",  "ambient pressure",
+                       "buoyancy",     "auftrieb",    "air density", "luftdichte",
+                       "vibration",    "environment", "umgebung",    "bano ",
+                       "horno ",       "enceinte",    "empuje",      "poussee de",
+                       "uniformidad",  "humedad",     "humidite",    "condiciones ambi",
+                       "*浮力",        "*均勻性",     "*均匀性",     "*濕度",
+                       "*湿度"})) {
+        return words.has("temperatur") &&
+                       !words.has_any({"bath ", "bad ", "furnace", "ofen", "homogen", "bano ", "horno ", "enceinte"})
                    ? Contributor::temperature
                    : Contributor::environment;
     }
     if (words.has_any({"drift",       "stability",      "instability", "stabilitat",   "instabilitat",
                        "langzeit",    "long term",      "ageing",      "aging",        "alterung",
                        "since last",  "since the last", "since its",   "seit letzter", "seit der letzten",
-                       "seit seiner", "seit ihrer",     "deriva ",     "derive ",      "*漂移",
-                       "*穩定性",     "*稳定性"})) {
+                       "seit seiner", "seit ihrer",     "deriva ",     "derive ",      "estabilidad",
+                       "stabilite",   "inestabilidad",  "instabilite", "*漂移",        "*穩定性",
+                       "*稳定性"})) {
         return names_item(words) ? Contributor::item : Contributor::reference_drift;
     }
     if (words.has_any({"reproducib", "reproduzier", "vergleichprazision", "vergleichsprazision", "intermediate prec",
@@ -87,7 +96,8 @@ Contributor kind_of_effect(const WordLine& words, std::string_view raw) {
                        "linearis", "linearity of the cur"})) {
         return Contributor::fit;
     }
-    if (words.has_any({"expansion", "*ausdehnung", "cte ", "alpha "}) || raw.find("α") != std::string_view::npos) {
+    if (words.has_any({"expansion", "*ausdehnung", "cte ", "alpha ", "dilatacion", "dilatation", "*膨脹", "*膨胀"}) ||
+        raw.find("α") != std::string_view::npos) {
         return Contributor::expansion;
     }
     if (words.has_any({"temperatur", "*temperatur", "temp ", "theta ", "thermal", "thermisch"}) ||
@@ -330,7 +340,7 @@ std::optional<std::size_t> count_of(const Piece& piece) {
     return static_cast<std::size_t>(piece.value);
 }
 
-/// "n = 5", "mean of 10", "s of 6 days", "10 readings".
+/// "n = 5", "mean of 10", "s of 6 days", "10 readings"; of what is called a mean, a number counts nothing where a unit follows.
 std::optional<std::size_t> count_of_readings(const Pieces& pieces) {
     // What is called n is it, whatever else is counted beside it.
     for (std::size_t i = 0; i + 2 < pieces.size(); ++i) {
@@ -351,15 +361,18 @@ std::optional<std::size_t> count_of_readings(const Pieces& pieces) {
                    });
         };
         const bool mean = piece.begins("mean") || piece.begins("average") || piece.begins("mittel") || piece.raw == "s";
-        if (mean && follows(1, {"of", "aus", "von", "over", "uber"}) && i + 2 < pieces.size()) {
+        const auto counts_readings = [&](std::size_t ahead) {
+            return follows(ahead, {"reading", "measurement", "repetition", "repeat", "messung", "ablesung",
+                                   "wiederholung", "einzelmess", "observation", "lectura", "medicion", "pesada",
+                                   "repeticion", "observacion", "lecture", "mesure", "pesee", "weighing", "wagung"});
+        };
+        // "Media de" and "moyenne de" alone count nothing, as an adjective is called so as well: "temperatura media de 3".
+        const bool of_mean = mean && follows(1, {"of", "aus", "von", "over", "uber"}) && i + 2 < pieces.size();
+        if (of_mean && (!has_unit(pieces[i + 2]) || counts_readings(4))) {  // "mean of 10 mV readings"
             if (const std::optional<std::size_t> count = count_of(pieces[i + 2])) {
                 return count;
             }
         }
-        const auto counts_readings = [&](std::size_t ahead) {
-            return follows(ahead, {"reading", "measurement", "repetition", "repeat", "messung", "ablesung",
-                                   "wiederholung", "einzelmess", "observation"});
-        };
         const bool is_qualified =
             follows(1, {"equal", "identical", "single", "repeated", "independent", "successive", "consecutive",
                         "gleich", "identisch", "einzeln", "wiederholt", "unabhangig", "aufeinanderfolgend"});
@@ -375,16 +388,19 @@ std::optional<std::size_t> count_of_readings(const Pieces& pieces) {
     return qualified;
 }
 
-/// "ν = 9", "dof 9", "9 degrees of freedom", "Freiheitsgrade: 9".
+/// "ν = 9", "dof 9", "9 degrees of freedom", "Freiheitsgrade: 9", "9 grados de libertad".
 std::optional<double> degrees_of_freedom(const Pieces& pieces) {
     for (std::size_t i = 0; i < pieces.size(); ++i) {
         const Piece& piece = pieces[i];
         if (piece.kind != Piece::Kind::word) {
             continue;
         }
-        const bool behind = piece.begins("freiheitsgrad") || piece.begins("degrees") || piece.word == "dof";
+        const bool romance = (piece.begins("grado") || piece.begins("degre")) && i + 2 < pieces.size() &&
+                             pieces[i + 1].word == "de" && pieces[i + 2].begins("libert");
+        const bool behind = piece.begins("freiheitsgrad") || piece.begins("degrees") || piece.word == "dof" || romance;
         const bool symbol = piece.raw == "ν" || piece.raw == "nu" || piece.raw == "df" || piece.word == "dof" ||
-                            piece.begins("freiheitsgrad") || piece.word == "freedom";
+                            piece.begins("freiheitsgrad") || piece.word == "freedom" || piece.word == "libertad" ||
+                            piece.word == "liberte";
         std::size_t next = i + 1;
         while (symbol && next < pieces.size() && is_filler(pieces[next])) {
             ++next;

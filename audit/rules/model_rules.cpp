@@ -62,8 +62,10 @@ bool is_part_of_value(const AuditedRow& row) {
     return std::find(k_parts.begin(), k_parts.end(), unit) != k_parts.end() &&
            row.contributor != Contributor::environment && row.contributor != Contributor::temperature &&
            row.contributor != Contributor::other &&
-           !mentions(row, {"humid", "feucht", "humedad", "moisture", "concentration", "konzentration", "purity",
-                           "reinheit", "slope", "steigung", "load", "\u6FD5", "\u6E7F"});
+           !mentions(row, {"humid",        "feucht",       "humedad",     "moisture", "concentration", "konzentration",
+                           "purity",       "reinheit",     "slope",       "steigung", "load",          "concentraci",
+                           "pureza",       "puret",        "pendiente",   "\u6FD5",   "\u6E7F",        "\u7D14\u5EA6",
+                           "\u7EAF\u5EA6", "\u6FC3\u5EA6", "\u6D53\u5EA6"});
 }
 
 /// Whether a row has its contribution, and neither u nor what it was divided from.

@@ -200,8 +200,9 @@ void divisor_against_label(const AuditSubject& subject, FindingCollector& findin
                 known = other.name;
             }
         }
-        // √12 is right of a full width; whether the number is one, U08 asks.
-        const bool full_step = at.is.shape == Shape::rectangular && is_about(divisor, std::sqrt(12.0), 2e-4);
+        // √12 is right of a full width, and so are 2√6 and 2√2; whether the number is one, U08 asks.
+        const std::optional<double> of_half = divisor_of_shape(at.is.shape);
+        const bool full_step = of_half && is_about(divisor, 2.0 * *of_half, 2e-4);
         // √6 is right of a whole step where two readings make a difference (U09).
         const bool two_steps = at.is.shape == Shape::rectangular && at.is.origin == Origin::resolution &&
                                at.is.origin_value && at.is.stated && is_about(divisor, std::sqrt(6.0), 2e-4) &&

@@ -367,6 +367,10 @@ constexpr std::array k_statement_words = {
     Word{U"result", Statement::value},
     Word{U"measuredvalue", Statement::value},
     Word{U"measurementresult", Statement::value},
+    Word{U"resultado", Statement::value},
+    Word{U"resultat", Statement::value},
+    Word{U"結果", Statement::value},
+    Word{U"结果", Statement::value},
     Word{U"ergebnis", Statement::value},
     Word{U"messwert", Statement::value},
     Word{U"messergebnis", Statement::value},
@@ -631,6 +635,10 @@ constexpr std::array k_result_words = {
     Word{U"y", Statement::value},
     Word{U"result", Statement::value},
     Word{U"measurementresult", Statement::value},
+    Word{U"resultado", Statement::value},
+    Word{U"resultat", Statement::value},
+    Word{U"結果", Statement::value},
+    Word{U"结果", Statement::value},
     Word{U"ergebnis", Statement::value},
     Word{U"messergebnis", Statement::value},
 };
@@ -878,6 +886,34 @@ bool is_square(std::string_view head) {
 }
 
 }  // namespace
+
+std::optional<LimitHead> limit_head(std::string_view head) {
+    if (head.find_first_of("0123456789=") != std::string_view::npos) {
+        return std::nullopt;
+    }
+    std::string_view bare = head.substr(0, head.find_first_of("([/,"));
+    while (bare.ends_with(' ')) {
+        bare.remove_suffix(1);
+    }
+    const std::string_view symbol = bare.substr(bare.find_last_of(' ') + 1);  // npos + 1 is 0
+    constexpr std::array<std::string_view, 3> k_upper_symbols{"a+", "a₊", "a_+"};
+    constexpr std::array<std::string_view, 5> k_lower_symbols{"a-", "a−", "a₋", "a_-", "a_−"};
+    if (std::find(k_upper_symbols.begin(), k_upper_symbols.end(), symbol) != k_upper_symbols.end()) {
+        return LimitHead::upper;
+    }
+    if (std::find(k_lower_symbols.begin(), k_lower_symbols.end(), symbol) != k_lower_symbols.end()) {
+        return LimitHead::lower;
+    }
+    const std::u32string letters = certificate::letters_of(bare);
+    constexpr std::array<std::u32string_view, 5> k_lower{U"lower", U"lowerlimit", U"lowerbound", U"untergrenze",
+                                                         U"unteregrenze"},
+        k_upper{U"upper", U"upperlimit", U"upperbound", U"obergrenze", U"oberegrenze"};
+    if (std::find(k_lower.begin(), k_lower.end(), letters) != k_lower.end()) {
+        return LimitHead::lower;
+    }
+    return std::find(k_upper.begin(), k_upper.end(), letters) != k_upper.end() ? std::optional(LimitHead::upper)
+                                                                               : std::nullopt;
+}
 
 bool is_unused_column(std::string_view head) {
     head = trimmed(head);

@@ -51,6 +51,10 @@ struct TypedHead {
 };
 [[nodiscard]] std::optional<TypedHead> typed_head(std::string_view head);
 
+/// A head of the limits of what is divided: "Lower limit", "a+", "Obergrenze (mm)". "Lower (95 %)" is one of a coverage interval.
+enum class LimitHead { lower, upper };
+[[nodiscard]] std::optional<LimitHead> limit_head(std::string_view head);
+
 /// Whether a head that names none of these columns is known all the same: shares, squares, numbers of rows.
 [[nodiscard]] bool is_unused_column(std::string_view head);
 

@@ -20,13 +20,16 @@
 #include "audit/row_meaning.h"
 #include "audit/sources/budget_words.h"
 #include "audit/sources/correlation_words.h"
+#include "audit/sources/limits_of_rows.h"
 #include "audit/sources/parts_of_value.h"
+#include "audit/sources/product_of_rows.h"
 #include "audit/sources/result_lines.h"
 #include "audit/sources/sheet_view.h"
 #include "audit/sources/sum_rows.h"
 #include "audit/sources/table_heads.h"
 #include "audit/sources/table_sums.h"
 #include "audit/sources/table_units.h"
+#include "gum/quantity/unit.h"
 #include "text/numbers.h"
 #include "text/small_letters.h"
 #include "text/visible_text.h"
@@ -69,6 +72,10 @@ public:
         std::string none;
         read.divisor = number(Column::divisor, none);
         read.u = number(Column::u, units.u);
+        if (std::optional<NumberWithUnit> half = half_width_of_limits(sheet_, heads_, row_); half && !read.stated) {
+            read.stated = std::move(half->number);
+            units.stated = half->unit.empty() ? heads_.units.at(Column::stated) : half->unit;
+        }
         read.sensitivity = number(Column::sensitivity, units.sensitivity);
         read.contribution = number(Column::contribution, units.contribution);
         read.nu = number(Column::nu, none);
@@ -1018,19 +1025,78 @@ private:
                 budget_.place, text::in_quotes(*relative)));
         return true;
     }
-    /// Whether nothing says how rows make up a result: they have no coefficients and no contributions, nothing is stated, and their units
-    /// cannot be added, or are not there beside a column that is not read. A sum of their u is a number of nobody.
-    [[nodiscard]] bool has_no_sum() {
+    /// Whether the dimensions of the rows may make up that of the result as a product: those that are not in its unit by themselves, or
+    /// together with it; as squares, too, where no row is in its unit.
+    [[nodiscard]] bool may_be_product() const {
+        constexpr std::size_t k_most = 4'096;
+        const std::optional<gum::Unit> result = known_unit(budget_.unit);
+        if (!result) {
+            return true;
+        }
+        std::vector<gum::Dimension> reached(1), others;
+        for (const AuditedRow& row : budget_.rows) {
+            const std::optional<gum::Unit> unit = known_unit(row.unit);
+            if (unit && !(unit->dimension() == result->dimension())) {
+                others.push_back(unit->dimension());
+            }
+        }
+        const bool may_be_squares = others.size() == budget_.rows.size();
+        for (const gum::Dimension& other : others) {
+            std::vector<gum::Dimension> next;
+            for (const gum::Dimension& so_far : reached) {
+                for (const double exponent : {1.0, -1.0, 2.0, -2.0}) {
+                    const gum::Dimension product = so_far * other.power(exponent);
+                    const bool is_new = std::find(next.begin(), next.end(), product) == next.end();
+                    if (is_new && (may_be_squares || std::abs(exponent) < 2.0)) {
+                        next.push_back(product);
+                    }
+                }
+            }
+            if (next.size() > k_most) {
+                return true;
+            }
+            reached = std::move(next);
+        }
+        return std::any_of(reached.begin(), reached.end(), [&](const gum::Dimension& product) {
+            return product == result->dimension() || (!may_be_squares && product.is_one());
+        });
+    }
+    /// Whether what is stated follows from the rows: u_c, or U where no u_c is.
+    [[nodiscard]] bool follows_from_rows() const {
+        const ClaimCheck check = check_claims(budget_);
         const bool is_stated = budget_.claims.u_c || budget_.claims.U;
+        return is_stated && check.allowed && !check.u_c_outside && (budget_.claims.u_c || !check.U_outside);
+    }
+    /// Whether nothing says how rows make up a result: they have no coefficients and no contributions, and their units cannot be added, or
+    /// are not there beside a column that is not read. A sum of their u is a number of nobody. Where something is stated, that is known
+    /// where it does not follow from the rows as they stand, no more than half of them are in its unit, and a product of them is; of rows
+    /// of one dimension a quotient or power may be, where none is in its unit.
+    [[nodiscard]] bool has_no_sum() {
         std::set<std::string> units;
         bool differ = false;
+        std::size_t in_its_unit = 0;
+        const bool is_stated = budget_.claims.u_c || budget_.claims.U;
         for (const AuditedRow& row : budget_.rows) {
-            if (is_stated || row.sensitivity || row.contribution ||
+            // One that is the conversion of a unit says nothing of the model.
+            if (have_coefficients_ || (!is_stated && row.sensitivity) || row.contribution ||
                 (row.unit != "1" && !row.unit.empty() && !known_unit(row.unit))) {
                 return false;
             }
             differ = differ || (!units.empty() && !factor_between(row.unit, *units.begin()));
+            in_its_unit += factor_between(row.unit, budget_.unit) ? 1U : 0U;
             units.insert(row.unit);
+        }
+        if (is_stated) {
+            differ = differ || (in_its_unit == 0 && known_unit(budget_.unit));
+            if (!differ || 2 * in_its_unit > budget_.rows.size() || !may_be_product() || follows_from_rows()) {
+                return false;
+            }
+            tables_.not_read.push_back(
+                say("{table}: the table is not looked at; its rows have no coefficients, and their units are not that "
+                    "of the result, which does not follow from them as a sum or as a product of their values; how do "
+                    "they make it up?",
+                    budget_.place));
+            return true;
         }
         const bool have_none = units.size() == 1 && units.contains("") && budget_.unit.empty();
         if (!differ && !(have_none && !budget_.unread_columns.empty())) {
@@ -1223,6 +1289,7 @@ private:
             settle_constants();
             tell_unknown_columns();
             is_open_ = settle_sums(sums(), result_line_.has_value(), tables_.not_read) || is_open_;
+            product_ = take_product();
             settle_result_line();
             if (is_open_) {
                 tables_.has_unusable = true;
@@ -1232,12 +1299,13 @@ private:
             settle_lost_row();
             settle_statements();
             settle_correlations();
+            settle_product();
             if (is_told_) {
                 tables_.has_unusable = true;
                 clear();
                 return;
             }
-            if (needs_unread_column() || needs_relative_column() || has_no_sum()) {
+            if (!product_ && (needs_unread_column() || needs_relative_column() || has_no_sum())) {
                 tables_.has_unusable = true;
                 clear();
                 return;
@@ -1272,7 +1340,171 @@ private:
         }
         clear();
     }
+    /// The value of a row, or of the line of a result, as a factor; the unit is that of its cell or head, else of the row.
+    [[nodiscard]] static Factor factor_of(const StatedNumber& number, const std::string& unit) {
+        return {.value = number.value, .relative_half_step = relative_half_step(number), .unit = unit};
+    }
+    [[nodiscard]] static double relative_half_step(const StatedNumber& number) {
+        return number.value != 0.0 ? std::abs(number.half_step / number.value) : 0.0;
+    }
+    /// How the values of rows without coefficients make up that of the result as a product or quotient, as in chemistry. The result may
+    /// be the last row, without a name that is known, where U is k times its u, and no line states u_c.
+    [[nodiscard]] std::optional<ProductOfRows> take_product() {
+        std::vector<AuditedRow>& rows = budget_.rows;
+        const auto headed = [this](Column column) { return heads_->columns.contains(column); };
+        if (is_open_ || rows.empty() || headed(Column::sensitivity) || headed(Column::contribution) ||
+            !headed(Column::u)) {
+            return std::nullopt;
+        }
+        std::vector<Factor> factors;
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            const std::string &of_u = units_[i].u, &of_value = units_[i].estimate;
+            if (!rows[i].estimate || !rows[i].u || is_part_beside(of_u, of_value) || !factor_between(of_u, of_value)) {
+                return std::nullopt;
+            }
+            factors.push_back(factor_of(*rows[i].estimate, of_value));
+        }
+        if (const auto value = statements_.numbers.find(Statement::value); value != statements_.numbers.end()) {
+            return product_of_rows(factors, factor_of(value->second.number, sums().unit_of(value->second)));
+        }
+        if (rows.back().stated || rows.back().divisor || statements_.numbers.contains(Statement::u_c)) {
+            return std::nullopt;
+        }
+        const Factor last = factors.back();
+        factors.pop_back();
+        std::optional<ProductOfRows> product = product_of_rows(factors, last);
+        const StatedResult u{.number = *rows.back().u, .unit = units_.back().u},
+            value{.number = *rows.back().estimate, .unit = units_.back().estimate};
+        if (!product || product->has_equal_factors || !is_u_c_of_stated_U(u)) {
+            return std::nullopt;
+        }
+        const std::optional<Interval> sum = sums().sum_above(u);
+        const bool is_sum = sum && sums().gives_statements(*sum, &u).value_or(false);
+        rows.pop_back();
+        units_.pop_back();
+        statements_.numbers.emplace(Statement::value, value);
+        statements_.numbers.emplace(Statement::u_c, u);
+        if (is_sum && !is_u_c_of_product(u)) {
+            leave_product();  // the last row may be one of a sum as well
+        }
+        return product;
+    }
+    void leave_product() {
+        is_told_ = true;
+        tables_.not_read.push_back(
+            say("{table}: the table is not looked at; the values of its rows make up that of the result as a product "
+                "or quotient, and nothing shows with which coefficients; what are they?",
+                budget_.place));
+    }
+    /// Whether U is stated and is k times a number, whatever the rows give.
+    [[nodiscard]] bool is_u_c_of_stated_U(const StatedResult& amount) {
+        const auto U = statements_.numbers.find(Statement::U);
+        if (U == statements_.numbers.end()) {
+            return false;
+        }
+        const std::optional<StatedNumber> stated = sums().stated(Statement::k);
+        const CoverageText said = coverage_in(statements_.coverage);
+        const std::optional<LeadingNumber> in_words =
+            said.k.empty() ? std::nullopt : read_leading_number(said.k, "", Percent::unit);
+        const double k = stated ? stated->value : in_words ? in_words->number.value : 0.0;
+        const std::optional<double> factor = factor_between(sums().unit_of(U->second), sums().unit_of(amount));
+        return k > 1.0 && factor && as_rounded(U->second.number, k / *factor).meets(as_rounded(amount.number, 1.0));
+    }
+    /// Whether a number is u_c of the rows with c = y/x, within the digits of all.
+    [[nodiscard]] bool is_u_c_of_product(const StatedResult& amount) {
+        const StatedResult& result = statements_.numbers.at(Statement::value);
+        const std::string unit = sums().unit_of(amount);
+        const double to_value = unit.empty() ? 1.0 : factor_between(unit, sums().unit_of(result)).value_or(0.0);
+        if (to_value == 0.0) {
+            return false;
+        }
+        AuditedBudget product;
+        product.claims.u_c = amount.number;
+        for (std::size_t i = 0; i < budget_.rows.size(); ++i) {
+            const double factor = factor_between(units_[i].u, units_[i].estimate).value_or(0.0);
+            const double c = result.number.value / budget_.rows[i].estimate->value * factor / to_value;
+            product.rows.push_back(with_coefficient(budget_.rows[i], c, result.number));
+        }
+        const ClaimCheck check = check_u_c(product);
+        return check.allowed && !check.u_c_outside;
+    }
+    /// A row with a coefficient as the value of the result and its own one leave it open.
+    [[nodiscard]] static AuditedRow with_coefficient(AuditedRow row, double c, const StatedNumber& value) {
+        row.sensitivity = exact_number(c, row.place);
+        row.sensitivity->half_step = std::abs(c) * (relative_half_step(value) + relative_half_step(*row.estimate));
+        complete_row(row);
+        return row;
+    }
+    /// Whether U is a part beside a value that is one as well: 3.1 % of 667 mg/kg, or of what 667 mg/kg are of.
+    [[nodiscard]] bool has_U_of_open_part() {
+        const auto U = statements_.numbers.find(Statement::U), value = statements_.numbers.find(Statement::value);
+        if (U == statements_.numbers.end() || value == statements_.numbers.end()) {
+            return false;
+        }
+        const std::string of_U = sums().unit_of(U->second), of_value = sums().unit_of(value->second);
+        return is_unit_of_part(of_U) && of_U != of_value && factor_between(of_U, of_value);
+    }
+    /// Gives the rows of a product y = Π x^e their sensitivity coefficients, e y/x, unless their u were added as they stand. What is stated
+    /// has to follow, or to follow from no exponents that fit.
+    void settle_product() {
+        const std::optional<StatedNumber>& value = budget_.claims.value;
+        if (!product_ || is_told_ || is_unusable_) {
+            product_.reset();
+            return;
+        }
+        if (!value) {  // it is in another unit than what the rows are held against, as U in %
+            leave_product();
+            return;
+        }
+        const std::vector<AuditedRow> as_they_stand = budget_.rows;
+        const auto take = [&](const std::vector<double>& exponents) {
+            for (std::size_t i = 0; i < exponents.size(); ++i) {
+                const AuditedRow& row = as_they_stand[i];
+                budget_.rows[i] = with_coefficient(row, exponents[i] * value->value / row.estimate->value, *value);
+            }
+        };
+        // u that are parts of the values, or percentages, that a head does not call so.
+        const auto may_be_relative = [&](double unit_of_part) {
+            for (std::size_t i = 0; i < as_they_stand.size(); ++i) {
+                budget_.rows[i] = with_coefficient(as_they_stand[i], unit_of_part * value->value, *value);
+            }
+            return follows_from_rows();
+        };
+        const bool is_stated = budget_.claims.u_c || budget_.claims.U;
+        const bool states_other = statements_.numbers.contains(Statement::u_c) ||
+                                  statements_.numbers.contains(Statement::U) || !statements_.parts.empty();
+        const bool is_correlated = !correlation_lines_.empty() || covariance_line_ != nullptr;
+        const bool is_a_sum = follows_from_rows();
+        take(product_->choices.front());
+        const bool follows = follows_from_rows();
+        if (is_a_sum && !follows) {
+            budget_.rows = as_they_stand;
+            product_.reset();
+            return;
+        }
+        const bool is_one = product_->choices.size() == 1 && product_->has_all_choices;
+        bool is_open = (!is_stated && states_other) || (is_correlated && !is_one) ||
+                       (has_U_of_open_part() && check_claims(budget_).U_outside);
+        if (is_stated && !follows && !is_open) {
+            is_open = product_->has_equal_factors || !product_->has_all_choices || may_be_relative(1.0) ||
+                      may_be_relative(0.01) ||
+                      std::any_of(product_->choices.begin() + 1, product_->choices.end(), [&](const auto& choice) {
+                          take(choice);
+                          return follows_from_rows();
+                      });
+            take(product_->choices.front());
+        }
+        if (is_open) {
+            leave_product();
+            return;
+        }
+        tables_.not_read.push_back(
+            say("{table}: the rows have no coefficients, and their values make up that of the result as a product or "
+                "quotient; c = y/x is taken for each",
+                budget_.place));
+    }
     void clear() {
+        product_.reset();
         budget_ = {};
         units_ = {};
         unit_in_words_.clear();
@@ -1314,6 +1546,15 @@ private:
         };
         std::optional<StatedResult> amount = number(Column::contribution, Statement::u_c);
         amount = amount ? amount : number(Column::u, Statement::u_c);
+        if (amount && product_ && (is_u_c_of_stated_U(*amount) || is_u_c_of_product(*amount))) {
+            const auto value = statements_.numbers.find(Statement::value);
+            if (value != statements_.numbers.end() && sums().unit_of(*amount).empty()) {
+                amount->unit = sums().unit_of(value->second);  // whatever U is stated in
+            }
+            sums().state(Statement::u_c, std::move(amount));
+            sums().state(Statement::nu_eff, number(Column::nu, Statement::nu_eff));
+            return;
+        }
         const std::optional<Interval> sum = amount ? sums().sum_above(*amount) : std::nullopt;
         if (!sum) {
             return;
@@ -1340,7 +1581,7 @@ private:
             return;
         }
         constexpr double k_still_u_c = 1.6;  // no coverage factor is as small
-        if (amount->number.value < k_still_u_c * sum->high) {
+        if (!product_ && amount->number.value < k_still_u_c * sum->high) {
             sums().state(Statement::u_c, std::move(amount));
             sums().state(Statement::nu_eff, number(Column::nu, Statement::nu_eff));
             return;
@@ -1370,6 +1611,8 @@ private:
         });
         state_claims(budget_, statements_, of_contributions, has_no_units ? unit_in_words_ : unit_of_rows(),
                      tables_.not_read);
+        have_coefficients_ = std::any_of(budget_.rows.begin(), budget_.rows.end(),
+                                         [](const AuditedRow& row) { return row.sensitivity.has_value(); });
         is_unusable_ = !settle_units(budget_.rows, units_, budget_.unit, tables_.not_read) || is_unusable_;
         for (AuditedRow& row : budget_.rows) {
             settle_words(row);
@@ -1475,7 +1718,9 @@ private:
     bool lost_a_row_ = false;         ///< its uncertainty has digits, and was not read
     bool is_told_ = false;            ///< why the table is not looked at
     bool is_too_long_ = false;
-    bool is_unusable_ = false;  ///< a row has an uncertainty that could not be read
+    bool is_unusable_ = false;              ///< a row has an uncertainty that could not be read
+    bool have_coefficients_ = false;        ///< rows state them
+    std::optional<ProductOfRows> product_;  ///< that the values of the rows make up, where they do
     AuditedBudget budget_;
     std::vector<RowUnits> units_;    ///< of its rows
     std::deque<Cell> joined_;        ///< heads that stand in two lines

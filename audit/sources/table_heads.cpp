@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include "audit/sources/limits_of_rows.h"
 #include "audit/sources/table_units.h"
 
 namespace gumcert::audit {
@@ -446,6 +447,7 @@ std::optional<Heads> heads_of(const SheetView& sheet, const SheetView::Row& row)
     take_types_beside(sheet, row, heads);
     take_relative_and_first(sheet, row, heads);
     take_k_for_divisor(sheet, heads);
+    take_limits(sheet, row, heads);
     const auto has = [&heads](Column column) { return heads.columns.contains(column); };
     const bool uncertainty = has(Column::u) || has(Column::stated) || has(Column::contribution);
     // "name | limit" heads many tables, and "name | value | unit | U" those of results: what is divided needs another column, as that

@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "audit/sources/budget_words.h"
@@ -19,6 +20,7 @@ struct Heads {
     std::map<Column, std::uint32_t> type_b;          ///< where those of type A have a column of their own beside it
     std::map<std::uint32_t, std::string> all_units;  ///< that heads state, by column of the sheet
     std::optional<std::uint32_t> marks_a, marks_b;   ///< columns of marks, which say of what type a row is
+    std::optional<std::pair<std::uint32_t, std::uint32_t>> limits;  ///< lower and upper, of what nothing else divides
     std::optional<std::uint32_t> description;    ///< column of words beside a column of symbols, or the other way round
     bool in_other_language = false;              ///< than those in which words of rows are read
     std::vector<const workbook::Cell*> second;   ///< heads of columns of numbers whose meaning another one has

@@ -74,5 +74,14 @@ TEST(IsArgument, OfWhatSomethingIsAFunctionOf) {
     EXPECT_FALSE(is_filler(filled[3]));
 }
 
+TEST(HasUnit, KnowsUnitsFromWords) {
+    for (const char* const text : {"3 °C", "20 mV", "5 min", "20 degrees", "20 Grad"}) {
+        EXPECT_TRUE(has_unit(pieces_of(text, DecimalSign::each).at(0))) << text;
+    }
+    for (const char* const text : {"3", "3 readings", "3 in air", "5 days", "5 turns", "3 weeks", "10, ν = 9"}) {
+        EXPECT_FALSE(has_unit(pieces_of(text, DecimalSign::each).at(0))) << text;
+    }
+}
+
 }  // namespace
 }  // namespace gumcert::audit

@@ -26,6 +26,13 @@ TEST(ContributorOf, reads_words_of_both_languages) {
     const std::vector<Case> cases{
         {"Repeatability", "", Contributor::repeatability},
         {"Wiederholpräzision", "", Contributor::repeatability},
+        {"Empuje del aire", "", Contributor::environment},
+        {"Poussée de l'air", "", Contributor::environment},
+        {"空氣浮力", "", Contributor::environment},
+        {"Estabilidad del patrón", "", Contributor::reference_drift},
+        {"Coefficient de dilatation", "", Contributor::expansion},
+        {"熱膨脹係數", "", Contributor::expansion},
+        {"Estabilidad del baño", "", Contributor::environment},
         {"standard deviation of readings", "", Contributor::repeatability},
         {"Reproducibility (operators)", "", Contributor::reproducibility},
         {"Resolution of DUT", "", Contributor::item_resolution},
@@ -172,6 +179,25 @@ TEST(ReadComment, counts_readings) {
     ASSERT_TRUE(pooled.nu);
     EXPECT_EQ(pooled.nu->value, 54.0);
     EXPECT_EQ(pooled.n, 3U);
+    for (const char* const comment : {"s de la media de 10 pesadas", "10 lecturas", "moyenne de 10 pesées",
+                                      "10 mesures", "mean of 10 cycles", "mean of 10 counts", "mean of 10 mV readings",
+                                      "mean of 10 V readings", "moyenne de 3: séries de 10 mesures"}) {
+        EXPECT_EQ(row_with(comment).n, 10U) << comment;
+    }
+    for (const char* const comment :
+         {"température moyenne de 3 °C", "temperatura media de 20 °C", "moyenne de 3 h", "media de 3 mV",
+          "moyenne de 3 jours", "tensión media de 20 voltios", "mean of 3 °C", "Mittel von 20 °C", "mean of 3 mV",
+          "average over 5 min", "mean of 20 degrees", "temperatura media de 3, humedad 50 %",
+          "temperatura media de 5."}) {
+        EXPECT_FALSE(row_with(comment).n) << comment;
+    }
+    EXPECT_EQ(row_with("mean of 3 in air").n, 3U);
+    for (const char* const comment :
+         {"media de 5 lecturas con 60 grados de libertad", "moyenne de 5 mesures, 60 degrés de liberté",
+          "5 lecturas, grados de libertad: 60", "mean of 5 readings with 60 degrees of freedom"}) {
+        ASSERT_TRUE(row_with(comment).nu) << comment;
+        EXPECT_EQ(row_with(comment).nu->value, 60.0) << comment;
+    }
     EXPECT_FALSE(row_with("n = 1.000271, refractive index").n);
     EXPECT_EQ(row_with("largest s of 9 points, n = 3 per direction").n, 3U);
     EXPECT_EQ(row_with("n = 4", "um", "difference of the gauges").contributor, Contributor::repeatability);

@@ -219,5 +219,17 @@ TEST(SumNameOf, TellsSumsOfSquaresFromTheVarianceOfOneThing) {
     }
 }
 
+TEST(LimitHead, KnowsBothEndsAndNoCoverageInterval) {
+    for (const char* const head : {"Lower", "Lower limit / mV", "a-", "a− (mm)", "Untergrenze", "lower bound"}) {
+        EXPECT_EQ(limit_head(head), LimitHead::lower) << head;
+    }
+    for (const char* const head : {"Upper", "Upper limit / mV", "a+", "a+ (mm)", "Obergrenze"}) {
+        EXPECT_EQ(limit_head(head), LimitHead::upper) << head;
+    }
+    for (const char* const head : {"Lower (95 %)", "Upper 95 %", "Lower (k = 2)", "a", "±a", "Limit", "alpha-"}) {
+        EXPECT_FALSE(limit_head(head)) << head;
+    }
+}
+
 }  // namespace
 }  // namespace gumcert::audit

@@ -509,5 +509,18 @@ TEST(LayoutsOfTables, OfPublishedTables) {
     EXPECT_TRUE(finds(report_on(puma + "1.59\nExpanded uncertainty U (k = 2),,,,,3.2\n"), "K01"));
 }
 
+TEST(LayoutsOfTables, TwiceTheDivisorOfAShapeIsThatOfAFullWidth) {
+    const auto with = [](const char* distribution, const char* divisor) {
+        return report_on(
+            "Größe;Breite 2a;Einheit;Verteilung;Teiler;Standardunsicherheit;Beitrag / mV\nDrift;0,100;mV;" +
+            std::string(distribution) + ";" + divisor +
+            ";0,0204;0,0204\nNormal (k = 2);0,02;mV;Normal;2;0,010;0,010\n");
+    };
+    EXPECT_FALSE(finds(with("Dreieck", "4,899"), "W02"));
+    EXPECT_FALSE(finds(with("Rechteck", "3,464"), "W02"));
+    EXPECT_FALSE(finds(with("U-förmig", "2,828"), "W02"));
+    EXPECT_TRUE(finds(with("Dreieck", "1,732"), "W02"));
+}
+
 }  // namespace
 }  // namespace gumcert::audit

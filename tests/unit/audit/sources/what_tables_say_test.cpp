@@ -217,11 +217,16 @@ TEST(WhatTablesSay, AColumnThatIsNotUnderstoodAccusesNobody) {
         const auto tells = [head](const Sentence& said) { return said.english().find(head) != std::string::npos; };
         EXPECT_TRUE(std::any_of(sum->evidence.begin(), sum->evidence.end(), tells));
     }
-    // The layout of EURACHEM: relative uncertainties bring the rows together, and their column is not read.
-    const AuditReport relative = audit_of(
+    // The layout of EURACHEM: relative uncertainties bring the rows together, as the values do. Where these make up no product, nobody
+    // knows how.
+    const std::string rows =
         "Quantity,Value x,Unit,Standard uncertainty u(x),u(x)/x\nPurity P,0.9998,1,0.000058,0.000058\n"
-        "Mass m,100.35,mg,0.06,0.00060\nVolume V,100.0,mL,0.08,0.00080\nResult "
-        "c,1003.3,mg/L,1.0,0.0010\nU,2.0,mg/L\nk,2\n");
+        "Mass m,100.35,mg,0.06,0.00060\nVolume V,100.0,mL,0.08,0.00080\nResult c,";
+    const AuditReport product = audit_of(rows + "1003.3,mg/L,1.0,0.0010\nU,2.0,mg/L\nk,2\n");
+    ASSERT_EQ(product.results.size(), 1U);
+    EXPECT_NEAR(product.results[0].recomputed.u_c, 1.0, 0.01);
+    EXPECT_EQ(finding_of(product, "K01"), nullptr);
+    const AuditReport relative = audit_of(rows + "903.3,mg/L,1.0,0.0010\nU,2.0,mg/L\nk,2\n");
     EXPECT_TRUE(relative.results.empty());
     EXPECT_TRUE(is_named(relative, "u(x)/x"));
     const AuditReport read = audit_of(
