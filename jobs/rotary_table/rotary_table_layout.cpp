@@ -171,9 +171,11 @@ void warn_of_idle_plan(const RotaryTableReading& reading, JobUse use) {
     if (!simulated && plan->contains("angles_deg")) {
         return;
     }
+    const bool full_turns = job.simulation && !job.simulation->angle_counts.empty();
     for (const char* key : {"angles_deg", "senses", "dead_paths", "sight"}) {
-        const bool plan_uses_it = std::string_view(key) == "sight";
-        if (!plan->contains(key) || (plan_uses_it && !simulated)) {
+        // Full turns of other angles are not what was measured: whether they are seen is asked as for a plan.
+        const bool uses_sight = std::string_view(key) == "sight" && (!simulated || full_turns);
+        if (!plan->contains(key) || uses_sight) {
             continue;
         }
         reading.problems.warn(

@@ -84,13 +84,17 @@ Basis basis_of(const RotaryTableRequest& measured, const SimulationRequest& aske
             layout = engine::with_full_turn(layout, basis.request.angle_counts.front());
         }
         engine::lay_out(layout, plan.both_senses, plan.dead_path_per_reflector);
-        basis.sight = plan.sight;
     }
+    basis.sight = plan.sight;
+    basis.is_measured = has_lengths;
     return basis;
 }
 
 RotaryTableMeasurement simulated_layout(const Basis& basis, std::size_t angles) {
     RotaryTableMeasurement whole = angles == 0 ? basis.layout : engine::with_full_turn(basis.layout, angles);
+    if (angles == 0 && basis.is_measured) {
+        return whole;  // measured is what was seen
+    }
     const std::optional<engine::LineOfSight> sight = plan::sight_of(basis.sight, whole);
     return sight ? plan::seen_layout(whole, *sight) : whole;
 }

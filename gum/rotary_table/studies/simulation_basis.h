@@ -16,8 +16,8 @@ struct Basis {
     engine::RotaryTableMeasurement layout;  ///< with lengths, and a position of every station
     SimulationRequest request;
     engine::TableRepeatability table;
-    SightStatement
-        sight;  ///< of a layout that is not measured; the distances of a measured one are those that were seen
+    bool is_measured = false;               ///< the distances of the layout are those that were seen
+    SightStatement sight;                   ///< of a layout that is not measured, and of full turns
     std::string table_from, stations_from;  ///< for the document
 };
 

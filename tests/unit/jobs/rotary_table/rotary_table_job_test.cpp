@@ -1587,6 +1587,9 @@ TEST(RotaryTableJob, WarnsOfKeysOfAPlanThatMeasuredLengthsLeaveWithoutUse) {
     const char* with_sight = R"({"sight": {"reflector_diameter_mm": 12.7}})";
     EXPECT_THAT(warned(with_sight, JobUse::simulate), HasSubstr("sight is not used"));
     EXPECT_THAT(warned(with_sight, JobUse::plan), Not(HasSubstr("sight is not used")));
+    Files full_turns = small_campaign();
+    with_key(std::string("\"simulation\": {\"angle_counts\": [12]}, \"plan\": ") + with_sight)(full_turns);
+    EXPECT_THAT(texts(read(full_turns, JobUse::simulate).warnings), Not(HasSubstr("sight is not used")));
     EXPECT_EQ(warned(without_angles, JobUse::evaluate), "") << "a plan beside what is evaluated";
 }
 

@@ -55,6 +55,19 @@ TEST(StatedSight, LeavesOutWhatIsHidden) {
     EXPECT_EQ(seen_layout(whole, *sight).lengths.size(), seen);
 }
 
+/// What was measured was seen. Full turns of other angles were not measured.
+TEST(StatedSight, IsAskedOfFullTurnsBesideMeasuredLengths) {
+    simulation::Basis basis;
+    basis.layout = sight_layout();
+    basis.sight = large_reflectors();
+    basis.is_measured = true;
+    EXPECT_EQ(simulation::simulated_layout(basis, 0).lengths.size(), basis.layout.lengths.size());
+    simulation::Basis nothing_hidden = basis;
+    nothing_hidden.sight = {};
+    EXPECT_LT(simulation::simulated_layout(basis, 4).lengths.size(),
+              simulation::simulated_layout(nothing_hidden, 4).lengths.size());
+}
+
 TEST(StatedSight, RefusesAStationThatSeesNothing) {
     const engine::RotaryTableMeasurement whole = sight_layout();
     const auto sight = sight_of(wall(), whole);
