@@ -324,11 +324,24 @@ private:
             if (tests_[g].is_controlled) {
                 take(best, {length_test(g, tests_[g]), leave_out});
             }
-            if (tests_[g].pose_rank > 0 && is_more_than_length(tests_[g])) {
+            if (tests_[g].pose_rank > 0 && is_more_than_length(tests_[g]) && is_worst_of_angle(g)) {
                 take(best, {pose_test(g, tests_[g]), leave_out});
             }
         }
         return best;
+    }
+    /// Whether no other visit of its angle explains more at the same weights. They share one pose of the table: of a disturbed
+    /// visit the others seem to stand elsewhere, and where its common error is judged by another scale than their poses,
+    /// they would be told in its place.
+    [[nodiscard]] bool is_worst_of_angle(std::size_t g) const {
+        const std::vector<Visit>& visits = adjustment_.visits();
+        for (std::size_t other = 0; other < visits_.size(); ++other) {
+            if (visits[other].angle == visits[g].angle && !visits_.is_out(other) &&
+                tests_[other].pose_chi_square > tests_[g].pose_chi_square) {
+                return false;
+            }
+        }
+        return true;
     }
 
     /// The largest test of visits of each of both kinds, where none of that kind was the largest of all.

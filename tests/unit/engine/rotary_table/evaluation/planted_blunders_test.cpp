@@ -691,6 +691,26 @@ TEST(PlantedBlunders, AHotFixtureIsToldAsItsTemperatureAndADisplacedReflectorIsN
     }
 }
 
+/// With a repeatability that is given the scale of common errors grows with the fault, that of poses does not: other visits of the
+/// angle were told to have another pose, by twice the fault.
+TEST(PlantedBlunders, ADisturbedVisitIsToldAndNotTheOthersOfItsAngle) {
+    for (const double size : {3e-6, 10e-6, 30e-6, 100e-6}) {
+        RotaryTableMeasurement m = synthetic::sound_campaign(3, 24).measurement;
+        m.table_repeatability = {RepeatabilityMode::given, 0.15e-6, 1.5e-6, 0.5e-6};
+        m.estimate_length_noise = false;
+        for (LengthObservation& length : m.lengths) {
+            length.length += length.station == 0 && length.angle == 7 ? size : 0.0;
+        }
+        SCOPED_TRACE(std::to_string(1e6 * size) + " µm");
+        const RotaryTableSolution solution = evaluated(m);
+        const GroupTest& first = first_group(solution);
+        EXPECT_TRUE(first.suspicious);
+        EXPECT_EQ(first.station, 0U);
+        EXPECT_EQ(first.angle, 7U);
+        EXPECT_NEAR(first.estimate / size, 1.0, 0.2);
+    }
+}
+
 /// Single distances that are off by 0.5 µm to 1 m, 1 % to 5 % of them: always a result, all large ones are left out, and
 /// no visit, station or pair is accused in their place.
 TEST(PlantedBlunders, OutliersOfAnySizeNeverEndInARefusalNorAccuseAGroup) {
