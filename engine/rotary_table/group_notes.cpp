@@ -22,18 +22,15 @@ std::string size_of(double length) {
 
 /// At most `digits` significant digits, written without an exponent: "1150".
 std::string plain(double value, int digits) {
-    for (double unit = std::pow(10.0, digits); value >= unit - 0.5; unit *= 10.0) {
-        const double quantum = 10.0 * unit / std::pow(10.0, digits);
-        if (value < 10.0 * unit - 0.5 * quantum) {
-            return text::fixed(std::round(value / quantum) * quantum, 0);
-        }
+    if (!(value >= std::pow(10.0, digits) - 0.5)) {
+        return text::significant(value, digits);
     }
-    return text::significant(value, digits);
+    const double quantum = std::pow(10.0, std::floor(std::log10(value)) + 1.0 - digits);
+    return text::fixed(std::round(value / quantum) * quantum, 0);
 }
 
 /// Why no size is told.
-constexpr const char* k_size_not_known =
-    "; by how much is not known: the adjustment without this error does not converge";
+constexpr const char* k_size_not_known = "; by how much is not known: no adjustment without this error confirms a size";
 
 std::string chi_square_of(double value) {
     return value < 1000.0 ? text::significant(value, 3) : text::significant(std::round(value), 12);

@@ -597,7 +597,7 @@ struct GroupSetting {
 /// A measurement without an error that may be what made single distances outlying: with all of them, and then without those
 /// that are outlying still.
 std::optional<SettledErrors> settle_with_all(const ErrorModel& model, const JointAdjustment& adjustment,
-                                             const GroupSetting& setting) {
+                                             const GroupSetting& setting) try {
     const SolverOptions solver = solver_of_a_check(setting.options);
     const JointAdjustment whole = with_active(adjustment, setting.but_gross, setting.stochastic);
     std::optional<SettledErrors> settled = settle_errors(model, whole, setting.stochastic, solver);
@@ -613,9 +613,12 @@ std::optional<SettledErrors> settle_with_all(const ErrorModel& model, const Join
         search.leave_out(suspect->length);
         active[suspect->length] = false;
     }
-    return active == setting.but_gross
+    // What is concentrated may be a second cause, and is told by the tests of groups: they need its distances.
+    return active == setting.but_gross || is_concentrated(adjustment.measurement(), active)
                ? std::move(settled)
                : settle_errors(model, with_active(adjustment, active, setting.stochastic), setting.stochastic, solver);
+} catch (const gum::NoResultError&) {
+    return std::nullopt;  // a check, which the result does not need
 }
 
 /// Chi-square for each distance.
@@ -647,7 +650,8 @@ const GroupTest* first_scale_error(const GroupTests& groups, GroupKind kind) {
 /// Groups beside errors that are told, of the measurement without them; none where they cannot be told.
 std::optional<std::vector<GroupTest>> groups_beside(const SettledErrors& settled, const GroupSetting& setting) {
     try {
-        return groups_at_own_variances(*settled.without, setting.estimated, setting.stochastic, setting.options,
+        JointAdjustment own = *settled.without;  // whose weights stay those of the error
+        return groups_at_own_variances(own, setting.estimated, setting.stochastic, setting.options,
                                        setting.group_options)
             .tests;
     } catch (const gum::NoResultError&) {
@@ -796,10 +800,14 @@ GroupTests groups_of(const JointAdjustment& adjustment, const NormalEquations& n
                 .value_or(groups);
         }
         JointAdjustment again = adjustment;
-        again.set_weights(variances_without(*near, adjustment, estimated, stochastic, options));
+        const StochasticModel smaller = variances_without(*near, adjustment, estimated, stochastic, options);
+        again.set_weights(smaller);
         require_convergence(again.adjustment().refine(options.solver), again.measurement());
         const NormalEquations at = again.adjustment().linearise();
-        GroupTests closer = test_groups(again, at, at.bordered_covariance(), group_options);
+        const GroupSetting of_again{estimated, smaller, options, group_options, but_gross};
+        GroupTests closer =
+            without_scale_errors(test_groups(again, at, at.bordered_covariance(), group_options), again, of_again);
+        closer = without_fixture_scale(std::move(closer), again, of_again);
         if (std::ranges::any_of(closer.tests, &GroupTest::suspicious)) {
             return closer;
         }

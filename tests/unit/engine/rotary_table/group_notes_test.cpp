@@ -153,6 +153,8 @@ TEST(GroupNotes, SayTheTemperatureThatAScaledFixtureMeans) {
     const auto hot = group_notes({.tests = {scaled}, .visits = {}}, measurement);
     EXPECT_THAT(hot[0].what, HasSubstr("1150 ppm larger"));
     EXPECT_THAT(hot[0].what, HasSubstr("100 K warmer"));
+    scaled.estimate = -996.5 * measurement.expansion;  // just below a power of ten, and no 1e+03
+    EXPECT_THAT(group_notes({.tests = {scaled}, .visits = {}}, measurement)[0].what, HasSubstr("as if it were 1000 K"));
 }
 
 /// A linearised size may be half as large again as the true one.
