@@ -20,6 +20,18 @@ std::string size_of(double length) {
     return size < 999.5 ? text::significant(size, 3) + " µm" : text::significant(size / 1000.0, 3) + " mm";
 }
 
+/// At most `digits` significant digits, written without an exponent: "1150".
+std::string plain(double value, int digits) {
+    if (!(value >= std::pow(10.0, digits) - 0.5)) {
+        return text::significant(value, digits);
+    }
+    const double quantum = std::pow(10.0, std::floor(std::log10(value)) + 1.0 - digits);
+    return text::fixed(std::round(value / quantum) * quantum, 0);
+}
+
+/// Why no size is told.
+constexpr const char* k_size_not_known = "; by how much is not known: no adjustment without this error confirms a size";
+
 std::string chi_square_of(double value) {
     return value < 1000.0 ? text::significant(value, 3) : text::significant(std::round(value), 12);
 }
@@ -67,11 +79,17 @@ std::string place_of(const GroupTest& test, const RotaryTableMeasurement& measur
 std::string scale_of(const GroupTest& test, const RotaryTableMeasurement& measurement) {
     const double size = std::abs(test.estimate);
     const bool is_smaller = test.estimate > 0.0;
-    std::string text = "the distances put the whole fixture " + text::significant(size * 1e6, 3) + " ppm " +
+    if (!test.is_settled) {
+        return std::string(
+                   "the distances put the whole fixture at another size than that of its coordinates at its "
+                   "temperature") +
+               k_size_not_known;
+    }
+    std::string text = "the distances put the whole fixture " + plain(size * 1e6, 3) + " ppm " +
                        (is_smaller ? "smaller" : "larger") + " than its coordinates at its temperature";
     if (measurement.expansion > 0.0) {
         // ΔT = ε/α: the likely cause, as the number that a laboratory can check.
-        text += ", as if it were " + text::significant(size / measurement.expansion, 2) + " K " +
+        text += ", as if it were " + plain(size / measurement.expansion, 2) + " K " +
                 (is_smaller ? "colder" : "warmer") + " than stated";
     }
     return text;
@@ -130,8 +148,14 @@ std::string what_of(const GroupTest& test, const RotaryTableMeasurement& measure
         case GroupKind::fixture_scale:
             return scale_of(test, measurement);
         case GroupKind::station_scale:
-            return "all distances of this station are " + text::significant(std::abs(test.estimate) * 1e6, 3) +
-                   " ppm too " + (test.estimate > 0.0 ? "long" : "short") + " beside those of the others";
+            if (!test.is_settled) {
+                return std::string(
+                           "all distances of this station are too long or too short by one factor beside those "
+                           "of the others") +
+                       k_size_not_known;
+            }
+            return "all distances of this station are " + plain(std::abs(test.estimate) * 1e6, 3) + " ppm too " +
+                   (test.estimate > 0.0 ? "long" : "short") + " beside those of the others";
         case GroupKind::fixture_place:
             return "from this visit on the fixture stood " + size_of(test.estimate) +
                    " away from where it was on the table before (root mean square of its reflectors)";

@@ -64,6 +64,9 @@ struct GroupTest {
     double estimate = 0.0;
     double minimal_detectable = 0.0;  ///< found with a probability of 80 %, in the unit of `estimate`; 0: not stated
     bool suspicious = false;
+    /// False of an error whose size no adjustment without it confirms: `estimate` is that of a linear model that does not hold
+    /// so far, and is not told.
+    bool is_settled = true;
     /// Of drift and change: visits of the adjustment, and what all distances of each are off by, [m].
     std::vector<std::pair<std::size_t, double>> errors = {};
 };

@@ -18,6 +18,7 @@
 #include "engine/rotary_table/evaluation/repeatability_check.h"
 #include "engine/rotary_table/evaluation/rival_tables.h"
 #include "engine/rotary_table/evaluation/scaled_lengths.h"
+#include "engine/rotary_table/evaluation/settled_errors.h"
 #include "engine/rotary_table/evaluation/stated_positions.h"
 #include "engine/rotary_table/geometry_check.h"
 #include "engine/rotary_table/group_notes.h"
@@ -554,147 +555,190 @@ GroupTests groups_at_own_variances(JointAdjustment& without, const EstimatedComp
     return test_groups(without, normal, normal.bordered_covariance(), group_options);
 }
 
-/// A measurement of which the scale errors of some stations are taken off.
-struct WithoutScaleErrors {
-    Eigen::VectorXd errors;  ///< of each station
-    GroupTests groups;       ///< of the distances without them
-};
-
-/// \param told  stations and their errors, from where the search begins
-WithoutScaleErrors without_scale_errors_of(const std::vector<GroupTest>& told, const JointAdjustment& adjustment,
-                                           const EstimatedComponents& estimated, StochasticModel stochastic,
-                                           const EvaluationOptions& options, const GroupTestOptions& group_options) {
-    constexpr int k_most_corrections = 8;
-    constexpr double k_settled = 1e-3;  // of the error: it is told with three digits
-    const auto count = std::ssize(told);
+/// Scale errors of stations, each its own.
+ErrorModel scale_errors(const std::vector<GroupTest>& told) {
     std::vector<std::size_t> stations;
-    Eigen::VectorXd error(count);
-    for (Eigen::Index k = 0; k < count; ++k) {
-        stations.push_back(told[static_cast<std::size_t>(k)].station);
-        error[k] = told[static_cast<std::size_t>(k)].estimate;
-    }
-    Eigen::VectorXd change = error;
-    Eigen::VectorXd before = Eigen::VectorXd::Zero(count);  // the errors that were corrected then, and what was left
-    Eigen::VectorXd left_before = error;
-    RotaryTableMeasurement corrected = adjustment.measurement();
-    std::optional<JointAdjustment> without;
-    std::optional<NormalEquations> normal;
-    for (int k = 0; k < k_most_corrections && (change.array().abs() > k_settled * error.array().abs()).any(); ++k) {
-        for (std::size_t i = 0; i < corrected.lengths.size(); ++i) {
-            LengthObservation& length = corrected.lengths[i];
+    std::ranges::transform(told, std::back_inserter(stations), &GroupTest::station);
+    const auto take_off = [stations](RotaryTableMeasurement& measurement, const Eigen::VectorXd& sizes) {
+        for (LengthObservation& length : measurement.lengths) {
             const auto of = std::ranges::find(stations, length.station);
             if (of != stations.end()) {
-                length.length = adjustment.measurement().lengths[i].length / (1.0 + error[of - stations.begin()]);
+                length.length /= 1.0 + sizes[of - stations.begin()];
             }
         }
-        without.emplace(corrected, adjustment.active(), adjustment.set_up(), adjustment.present_values(), stochastic);
-        without->adjustment().set_workers(options.workers);
-        // Not from where the error has led the temperatures.
-        require_convergence(without->adjustment().solve(options.solver), corrected);
-        without->set_weights(stochastic);
-        require_convergence(without->adjustment().refine(options.solver), corrected);
-        normal.emplace(without->adjustment().linearise());
-        const Eigen::VectorXd left =
-            scale_errors_of_stations(*without, *normal, normal->bordered_covariance(), stations);
-        for (Eigen::Index j = 0; j < count; ++j) {
-            // A secant: what a large error is told as is up to twice as large.
-            change[j] =
-                left_before[j] != left[j] ? left[j] * (error[j] - before[j]) / (left_before[j] - left[j]) : left[j];
-            before[j] = std::exchange(error[j], error[j] + change[j]);
-            left_before[j] = left[j];
+    };
+    const auto sizes = [stations](const JointAdjustment& at, const NormalEquations& normal,
+                                  const BorderedCovariance& covariance) {
+        return scale_errors_of_stations(at, normal, covariance, stations);
+    };
+    return {std::ssize(told), take_off, sizes};
+}
+
+/// One of the size of the fixture.
+ErrorModel scale_error_of_coordinates() {
+    return {1,
+            [](RotaryTableMeasurement& measurement, const Eigen::VectorXd& sizes) {
+                measurement.fixture /= 1.0 + sizes[0];
+            },
+            [](const JointAdjustment& at, const NormalEquations& normal, const BorderedCovariance& covariance) {
+                return Eigen::VectorXd::Constant(1, scale_error_of_fixture(at, normal, covariance));
+            }};
+}
+
+/// What tests of groups need beside the adjustment.
+struct GroupSetting {
+    const EstimatedComponents& estimated;
+    const StochasticModel& stochastic;
+    const EvaluationOptions& options;
+    const GroupTestOptions& group_options;
+    const std::vector<bool>& but_gross;  ///< distances without gross errors
+};
+
+/// A measurement without an error that may be what made single distances outlying: with all of them, and then without those
+/// that are outlying still.
+std::optional<SettledErrors> settle_with_all(const ErrorModel& model, const JointAdjustment& adjustment,
+                                             const GroupSetting& setting) try {
+    const SolverOptions solver = solver_of_a_check(setting.options);
+    const JointAdjustment whole = with_active(adjustment, setting.but_gross, setting.stochastic);
+    std::optional<SettledErrors> settled = settle_errors(model, whole, setting.stochastic, solver);
+    const OutlierOptions& outliers = adjustment.measurement().outliers;
+    if (!settled || outliers.test != OutlierTest::data_snooping || outliers.action != OutlierAction::remove) {
+        return settled;
+    }
+    const NormalEquations normal = settled->without->adjustment().linearise();
+    const BorderedCovariance covariance = normal.bordered_covariance();
+    OneAtATime search(*settled->without, normal, covariance);
+    std::vector<bool> active = setting.but_gross;
+    while (const auto suspect = search.largest(setting.options.critical_value)) {
+        search.leave_out(suspect->length);
+        active[suspect->length] = false;
+    }
+    // What is concentrated may be a second cause, and is told by the tests of groups: they need its distances.
+    return active == setting.but_gross || is_concentrated(adjustment.measurement(), active)
+               ? std::move(settled)
+               : settle_errors(model, with_active(adjustment, active, setting.stochastic), setting.stochastic, solver);
+} catch (const gum::NoResultError&) {
+    return std::nullopt;  // a check, which the result does not need
+}
+
+/// Chi-square for each distance.
+double mean_misfit(const JointAdjustment& adjustment) {
+    const NormalEquations normal = adjustment.adjustment().linearise();
+    return normal.chi_square() / static_cast<double>(normal.observation_count());
+}
+
+/// Whether nearly all that is wrong goes with errors that are told: then they come first, whatever the linearised model shows
+/// beside them.
+bool explains_nearly_all(const SettledErrors& settled, const JointAdjustment& adjustment) {
+    constexpr double k_share_left = 0.25;
+    return mean_misfit(*settled.without) < k_share_left * mean_misfit(adjustment);
+}
+
+/// Scale errors below are told by the linearised model as well.
+constexpr double k_linear_scale = 5e-5;
+
+/// The scale error of a kind from which the search begins: the least probable group of all, or one of so many ppm that what
+/// the linearised model shows in its place says nothing.
+const GroupTest* first_scale_error(const GroupTests& groups, GroupKind kind) {
+    const auto found = std::ranges::find_if(
+        groups.tests, [kind](const GroupTest& test) { return test.suspicious && test.kind == kind; });
+    return found != groups.tests.end() && (found == groups.tests.begin() || std::abs(found->estimate) > k_linear_scale)
+               ? &*found
+               : nullptr;
+}
+
+/// Groups beside errors that are told, of the measurement without them; none where they cannot be told.
+std::optional<std::vector<GroupTest>> groups_beside(const SettledErrors& settled, const GroupSetting& setting) {
+    try {
+        JointAdjustment own = *settled.without;  // whose weights stay those of the error
+        return groups_at_own_variances(own, setting.estimated, setting.stochastic, setting.options,
+                                       setting.group_options)
+            .tests;
+    } catch (const gum::NoResultError&) {
+        return std::nullopt;  // a check, which the result does not need
+    }
+}
+
+/// Puts what is told before the others. Of those that the linearised model shows beside a large error nothing is told.
+void put_first(std::vector<GroupTest>& tests, const std::vector<GroupTest>& told,
+               std::optional<std::vector<GroupTest>> others) {
+    if (others) {
+        tests = std::move(*others);
+    } else {
+        std::erase_if(tests, &GroupTest::suspicious);
+    }
+    std::erase_if(tests, [&](const GroupTest& test) {
+        return std::ranges::any_of(told, [&](const GroupTest& of) {
+            return test.kind == of.kind && (!test.suspicious || test.station == of.station);
+        });
+    });
+    tests.insert(tests.begin(), told.begin(), told.end());
+}
+
+/// Groups with scale errors first that are told, with the sizes that the measurement without them confirms.
+/// \param first   of the linearised model, which the others follow
+/// \param settled  none where no adjustment confirms a size
+GroupTests with_scale_errors(GroupTests groups, const GroupTest* first, std::vector<GroupTest> told,
+                             const std::optional<SettledErrors>& settled, std::optional<std::vector<GroupTest>> others,
+                             const JointAdjustment& adjustment) {
+    const bool is_first = first == groups.tests.data();
+    if (settled ? !is_first && !explains_nearly_all(*settled, adjustment)
+                : !is_first || std::abs(first->estimate) <= k_linear_scale) {
+        return groups;
+    }
+    for (std::size_t k = 0; k < told.size(); ++k) {
+        told[k].is_settled = settled.has_value();
+        if (settled) {
+            told[k].estimate = settled->sizes[static_cast<Eigen::Index>(k)];
         }
     }
-    return {error, groups_at_own_variances(*without, estimated, stochastic, options, group_options)};
+    put_first(groups.tests, told, std::move(others));
+    return groups;
 }
 
 /// Groups of a measurement whose fixture is larger or smaller than stated: by how much, and what else is suspicious, with
-/// coordinates of that size. Of hundreds of ppm the temperatures at the stations and the coefficient go so far from what is stated
-/// that the linearised size is a third off, and reflectors are told beside it.
-GroupTests without_fixture_scale(GroupTests groups, const JointAdjustment& adjustment,
-                                 const EstimatedComponents& estimated, const StochasticModel& stochastic,
-                                 const EvaluationOptions& options, const GroupTestOptions& group_options) {
-    constexpr int k_most_corrections = 8;
-    constexpr double k_settled = 1e-3;  // of the size: it is told with three digits
-    if (groups.tests.empty() || !groups.tests.front().suspicious ||
-        groups.tests.front().kind != GroupKind::fixture_scale) {
+/// coordinates of that size.
+GroupTests without_fixture_scale(GroupTests groups, const JointAdjustment& adjustment, const GroupSetting& setting) {
+    const GroupTest* const first = first_scale_error(groups, GroupKind::fixture_scale);
+    if (first == nullptr) {
         return groups;
     }
-    GroupTest told = groups.tests.front();
-    double size = told.estimate;
-    double change = size;
-    double before = 0.0;  // the size that was corrected then, and what was left
-    double left_before = size;
-    RotaryTableMeasurement corrected = adjustment.measurement();
-    std::optional<JointAdjustment> without;
-    // The last steps from a large error are slow, and more than the three digits need.
-    SolverOptions solver = options.solver;
-    solver.step_tolerance = std::max(solver.step_tolerance, k_step_of_a_check);
-    try {
-        for (int k = 0; k < k_most_corrections && std::abs(change) > k_settled * std::abs(size); ++k) {
-            corrected.fixture = adjustment.measurement().fixture / (1.0 + size);
-            without.emplace(corrected, adjustment.active(), adjustment.set_up(), adjustment.present_values(),
-                            stochastic);
-            without->adjustment().set_workers(options.workers);
-            require_convergence(without->adjustment().solve(solver), corrected);
-            without->set_weights(stochastic);
-            require_convergence(without->adjustment().refine(solver), corrected);
-            const NormalEquations normal = without->adjustment().linearise();
-            const double left = scale_error_of_fixture(*without, normal, normal.bordered_covariance());
-            change = left_before != left ? left * (size - before) / (left_before - left) : left;
-            before = std::exchange(size, size + change);
-            left_before = left;
-        }
-        told.estimate = size;
-        GroupTests others = groups_at_own_variances(*without, estimated, stochastic, options, group_options);
-        std::erase_if(others.tests, [](const GroupTest& test) { return test.kind == GroupKind::fixture_scale; });
-        others.tests.insert(others.tests.begin(), told);
-        groups.tests = std::move(others.tests);
-    } catch (const gum::NoResultError&) {
-        return groups;  // a check, which the result does not need
-    }
-    return groups;
+    const auto settled = settle_with_all(scale_error_of_coordinates(), adjustment, setting);
+    auto others = settled ? groups_beside(*settled, setting) : std::nullopt;
+    const std::vector<GroupTest> told{*first};
+    return with_scale_errors(std::move(groups), first, told, settled, std::move(others), adjustment);
 }
 
 /// Groups of a measurement of which stations have scale errors: how large they are, and what else is suspicious, from the
 /// distances without them. An error of many ppm moves the temperature of the fixture at the station so far from what is stated
 /// that the linearised tests are not those of the measurement, and the scale of a second station is told as another cause.
-GroupTests without_scale_errors(GroupTests groups, const JointAdjustment& adjustment,
-                                const EstimatedComponents& estimated, const StochasticModel& stochastic,
-                                const EvaluationOptions& options, const GroupTestOptions& group_options) {
-    if (groups.tests.empty() || !groups.tests.front().suspicious ||
-        groups.tests.front().kind != GroupKind::station_scale) {
+GroupTests without_scale_errors(GroupTests groups, const JointAdjustment& adjustment, const GroupSetting& setting) {
+    const GroupTest* const first = first_scale_error(groups, GroupKind::station_scale);
+    if (first == nullptr) {
         return groups;
     }
-    std::vector<GroupTest> told{groups.tests.front()};
+    std::vector<GroupTest> told{*first};
     const std::size_t most = adjustment.measurement().stations.size() / 2;  // of more it is the others that are wrong
-    try {
-        for (std::size_t round = 0; round < std::max<std::size_t>(most, 1); ++round) {
-            WithoutScaleErrors without =
-                without_scale_errors_of(told, adjustment, estimated, stochastic, options, group_options);
-            for (std::size_t k = 0; k < told.size(); ++k) {
-                told[k].estimate = without.errors[static_cast<Eigen::Index>(k)];
-            }
-            const auto next = std::ranges::find_if(without.groups.tests, [&](const GroupTest& test) {
-                return test.suspicious && test.kind == GroupKind::station_scale &&
-                       std::ranges::find(told, test.station, &GroupTest::station) == told.end();
-            });
-            if (next != without.groups.tests.end() && told.size() < most) {
-                told.push_back(*next);
-                continue;
-            }
-            std::vector<GroupTest>& others = without.groups.tests;
-            std::erase_if(others, [&](const GroupTest& test) {
-                return test.kind == GroupKind::station_scale &&
-                       (!test.suspicious || std::ranges::find(told, test.station, &GroupTest::station) != told.end());
-            });
-            others.insert(others.begin(), told.begin(), told.end());
-            groups.tests = std::move(others);
-            return groups;
+    auto settled = settle_with_all(scale_errors(told), adjustment, setting);
+    auto others = settled ? groups_beside(*settled, setting) : std::nullopt;
+    while (others && told.size() < most) {
+        const auto next = std::ranges::find_if(*others, [&](const GroupTest& test) {
+            return test.suspicious && test.kind == GroupKind::station_scale &&
+                   std::ranges::find(told, test.station, &GroupTest::station) == told.end();
+        });
+        if (next == others->end()) {
+            break;
         }
-    } catch (const gum::NoResultError&) {
-        return groups;  // a check, which the result does not need
+        told.push_back(*next);
+        auto jointly = settle_with_all(scale_errors(told), adjustment, setting);
+        if (!jointly) {
+            told.pop_back();
+            break;
+        }
+        settled = std::move(jointly);
+        others = groups_beside(*settled, setting);
     }
-    return groups;
+    return with_scale_errors(std::move(groups), first, std::move(told), settled, std::move(others), adjustment);
 }
 
 /// Groups at given weights where one is nearly suspicious: of few stations it moves most visits, and the robust scale of all of them
@@ -741,10 +785,11 @@ bool names_a_cause(const GroupTests& groups) {
 GroupTests groups_of(const JointAdjustment& adjustment, const NormalEquations& normal,
                      const BorderedCovariance& covariance, const EstimatedComponents& estimated,
                      const StochasticModel& stochastic, const EvaluationOptions& options,
-                     const GroupTestOptions& group_options) {
-    GroupTests groups = without_scale_errors(test_groups(adjustment, normal, covariance, group_options), adjustment,
-                                             estimated, stochastic, options, group_options);
-    groups = without_fixture_scale(std::move(groups), adjustment, estimated, stochastic, options, group_options);
+                     const GroupTestOptions& group_options, const std::vector<bool>& but_gross) {
+    const GroupSetting setting{estimated, stochastic, options, group_options, but_gross};
+    GroupTests groups =
+        without_scale_errors(test_groups(adjustment, normal, covariance, group_options), adjustment, setting);
+    groups = without_fixture_scale(std::move(groups), adjustment, setting);
     const GroupTest* const near = nearly_suspicious(groups, group_options);
     if (near == nullptr || names_a_cause(groups)) {
         return groups;
@@ -755,10 +800,14 @@ GroupTests groups_of(const JointAdjustment& adjustment, const NormalEquations& n
                 .value_or(groups);
         }
         JointAdjustment again = adjustment;
-        again.set_weights(variances_without(*near, adjustment, estimated, stochastic, options));
+        const StochasticModel smaller = variances_without(*near, adjustment, estimated, stochastic, options);
+        again.set_weights(smaller);
         require_convergence(again.adjustment().refine(options.solver), again.measurement());
         const NormalEquations at = again.adjustment().linearise();
-        GroupTests closer = test_groups(again, at, at.bordered_covariance(), group_options);
+        const GroupSetting of_again{estimated, smaller, options, group_options, but_gross};
+        GroupTests closer =
+            without_scale_errors(test_groups(again, at, at.bordered_covariance(), group_options), again, of_again);
+        closer = without_fixture_scale(std::move(closer), again, of_again);
         if (std::ranges::any_of(closer.tests, &GroupTest::suspicious)) {
             return closer;
         }
@@ -781,10 +830,63 @@ std::optional<GroupTests> groups_with_all(const JointAdjustment& adjustment, con
         check.component_tolerance = std::max(options.component_tolerance, k_component_of_a_check);
         iteration.settle_exactly(whole, stochastic, check);
         return groups_of(whole, *iteration.normal, iteration.covariance, iteration.estimated(), stochastic, options,
-                         group_options);
+                         group_options, active);
     } catch (const gum::NoResultError&) {
         return std::nullopt;
     }
+}
+
+/// The measurement without the errors that tests of groups tell first; none of kinds that have no size to be taken off.
+std::optional<RotaryTableMeasurement> without_first_error(const std::vector<GroupTest>& tests,
+                                                          const JointAdjustment& whole) {
+    const GroupTest& first = tests.front();
+    if (!first.errors.empty()) {
+        return without_group(first, whole);
+    }
+    if (!first.is_settled || (first.kind != GroupKind::fixture_scale && first.kind != GroupKind::station_scale)) {
+        return std::nullopt;
+    }
+    std::vector<GroupTest> told;
+    std::ranges::copy_if(tests, std::back_inserter(told),
+                         [&](const GroupTest& test) { return test.suspicious && test.kind == first.kind; });
+    Eigen::VectorXd sizes(std::ssize(told));
+    std::ranges::transform(told, sizes.begin(), &GroupTest::estimate);
+    RotaryTableMeasurement corrected = whole.measurement();
+    const ErrorModel model = first.kind == GroupKind::fixture_scale ? scale_error_of_coordinates() : scale_errors(told);
+    model.take_off(corrected, sizes);
+    return corrected;
+}
+
+/// What made so many distances outlying, where one cause explains nearly all of it; else none, which is no wrong one.
+std::optional<gum::Diagnostic> cause_of_outliers(const JointAdjustment& adjustment, const Iteration& main,
+                                                 const StochasticModel& stochastic, const std::vector<bool>& but_gross,
+                                                 const EvaluationOptions& options) {
+    constexpr double k_share_left = 0.25;
+    if (!options.chi_square_upper_tail) {
+        return std::nullopt;
+    }
+    const GroupTestOptions group_options{.chi_square_upper_tail = options.chi_square_upper_tail};
+    const std::optional<GroupTests> groups =
+        groups_with_all(adjustment, but_gross, main.estimated(), stochastic, options, group_options);
+    if (!groups || groups->tests.empty() || !groups->tests.front().suspicious) {
+        return std::nullopt;
+    }
+    JointAdjustment whole = with_active(adjustment, but_gross, stochastic);
+    const std::optional<RotaryTableMeasurement> corrected = without_first_error(groups->tests, whole);
+    if (!corrected) {
+        return std::nullopt;
+    }
+    JointAdjustment without(*corrected, but_gross, adjustment.set_up(), adjustment.present_values(), stochastic);
+    without.adjustment().set_workers(options.workers);
+    const SolverOptions solver = solver_of_a_check(options);
+    if (!without.adjustment().solve(solver).converged) {
+        return std::nullopt;
+    }
+    // What does not converge with the error in is all the worse.
+    if (whole.adjustment().solve(solver).converged && mean_misfit(without) > k_share_left * mean_misfit(whole)) {
+        return std::nullopt;
+    }
+    return group_notes({.tests = {groups->tests.front()}, .visits = {}}, adjustment.measurement()).front();
 }
 
 /// The fixture component together with the others, as a check of the stated covariance.
@@ -1139,6 +1241,21 @@ void note_refuted_resolution(RotaryTableSolution& solution, const RotaryTableMea
     }
 }
 
+/// A scale error that no adjustment without it confirms has no size that may be told, and whatever else there is to say of
+/// the measurement rests on the error.
+void refuse_unsettled_errors(const GroupTests& groups, const RotaryTableMeasurement& measurement) {
+    GroupTests unsettled;
+    std::ranges::copy_if(groups.tests, std::back_inserter(unsettled.tests),
+                         [](const GroupTest& test) { return test.suspicious && !test.is_settled; });
+    std::vector<gum::Diagnostic> problems = group_notes(unsettled, measurement);
+    if (!problems.empty()) {
+        for (gum::Diagnostic& problem : problems) {
+            problem.severity = gum::Severity::error;
+        }
+        throw gum::NoResultError(std::move(problems));
+    }
+}
+
 /// A solution, and whether one with reversals of each angle is worth its time.
 struct Adjusted {
     RotaryTableSolution solution;
@@ -1421,11 +1538,24 @@ Adjusted adjust_and_test(const RotaryTableMeasurement& measurement, StartSearch&
     solution.observations = normal.observation_count();
     solution.parameters = normal.parameter_count();
     solution.degrees_of_freedom = solution.observations - solution.parameters;
-    require_rest_that_can_object(
-        static_cast<std::size_t>(
-            std::ranges::count_if(solution.reliability, [](const DistanceReliability& row) { return row.removed; })),
-        solution.degrees_of_freedom, iteration.step.length_redundancy, measurement.lengths.size(),
-        iteration.step.components[length_noise].estimated ? 0.0 : iteration.step.components[length_noise].value);
+    // Lengths that single tests left out stay in for the group tests: they may be signs of a fault of a whole group.
+    std::vector<bool> but_gross = all;
+    for (const OutlierFinding& finding : found) {
+        but_gross[finding.length] = but_gross[finding.length] && finding.reason != OutlierReason::gross_error;
+    }
+    try {
+        require_rest_that_can_object(
+            static_cast<std::size_t>(std::ranges::count_if(solution.reliability,
+                                                           [](const DistanceReliability& row) { return row.removed; })),
+            solution.degrees_of_freedom, iteration.step.length_redundancy, measurement.lengths.size(),
+            iteration.step.components[length_noise].estimated ? 0.0 : iteration.step.components[length_noise].value);
+    } catch (const gum::NoResultError& error) {
+        std::vector<gum::Diagnostic> problems = error.diagnostics();
+        if (const auto cause = cause_of_outliers(adjustment, iteration, stochastic, but_gross, options)) {
+            problems.push_back(*cause);
+        }
+        throw gum::NoResultError(std::move(problems));
+    }
     solution.iterations = iteration.iterations;
     solution.chi_square = normal.chi_square();
     solution.condition_number = normal.condition_number();
@@ -1442,11 +1572,6 @@ Adjusted adjust_and_test(const RotaryTableMeasurement& measurement, StartSearch&
     solution.critical_value_degrees_of_freedom = limits.degrees_of_freedom;
     solution.non_centrality = limits.non_centrality;
     fill_variance_factor(solution);
-    // Lengths that single tests left out stay in for the group tests: they may be signs of a fault of a whole group.
-    std::vector<bool> but_gross = all;
-    for (const OutlierFinding& finding : solution.outliers) {
-        but_gross[finding.length] = but_gross[finding.length] && finding.reason != OutlierReason::gross_error;
-    }
     bool may_depend = false;
     if (adjustment.reversal_by_angle()) {
         solution.reversal_model = ReversalModel::by_angle;
@@ -1473,7 +1598,8 @@ Adjusted adjust_and_test(const RotaryTableMeasurement& measurement, StartSearch&
             }
             const bool of_all = groups.has_value();
             if (!groups) {
-                groups = groups_of(at, *of.normal, of.covariance, of.estimated(), weights, options, group_options);
+                groups = groups_of(at, *of.normal, of.covariance, of.estimated(), weights, options, group_options,
+                                   but_gross);
             }
             return TestedGroups{std::move(*groups), of_all};
         };
@@ -1501,6 +1627,7 @@ Adjusted adjust_and_test(const RotaryTableMeasurement& measurement, StartSearch&
         if (!solution.groups) {
             solution.groups = groups_at(adjustment, iteration, stochastic).groups;
         }
+        refuse_unsettled_errors(*solution.groups, measurement);
     }
 
     const auto nu = [&](std::size_t k) { return solution.components[k].degrees_of_freedom; };
@@ -1671,11 +1798,13 @@ RotaryTableSolution evaluate_jointly(const RotaryTableMeasurement& measurement, 
         if (std::ranges::any_of(error.diagnostics(), [](const gum::Diagnostic& problem) {
                 return problem.code == "GC-ADJUST-0005" || problem.code == "GC-ADJUST-0015" ||
                        problem.code == "GC-ADJUST-0016" || problem.code == "GC-ADJUST-0017" ||
-                       problem.code == "GC-RANK-0001" || problem.code == "GC-VARIANCE-0008";
+                       problem.code == "GC-RANK-0001" || problem.code == "GC-VARIANCE-0008" ||
+                       problem.code == k_suspicious_group;
             })) {
             start_search.refuse_wrong_labels();
             if (std::ranges::any_of(error.diagnostics(), [](const gum::Diagnostic& problem) {
-                    return problem.code == "GC-ADJUST-0005" || problem.code == "GC-ADJUST-0017";
+                    return problem.code == "GC-ADJUST-0005" || problem.code == "GC-ADJUST-0017" ||
+                           problem.code == k_suspicious_group;
                 })) {
                 refuse_scaled();
             }

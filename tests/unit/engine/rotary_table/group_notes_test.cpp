@@ -149,6 +149,25 @@ TEST(GroupNotes, SayTheTemperatureThatAScaledFixtureMeans) {
     EXPECT_THAT(warmer[0].what, HasSubstr("46 ppm larger"));
     EXPECT_THAT(warmer[0].what, HasSubstr("4 K warmer"));
     EXPECT_THAT(warmer[0].action, HasSubstr("temperature of the fixture"));
+    scaled.estimate = -1154e-6;
+    const auto hot = group_notes({.tests = {scaled}, .visits = {}}, measurement);
+    EXPECT_THAT(hot[0].what, HasSubstr("1150 ppm larger"));
+    EXPECT_THAT(hot[0].what, HasSubstr("100 K warmer"));
+    scaled.estimate = -996.5 * measurement.expansion;  // just below a power of ten, and no 1e+03
+    EXPECT_THAT(group_notes({.tests = {scaled}, .visits = {}}, measurement)[0].what, HasSubstr("as if it were 1000 K"));
+}
+
+/// A linearised size may be half as large again as the true one.
+TEST(GroupNotes, TellNoSizeThatTheAdjustmentWithoutTheErrorDoesNotConfirm) {
+    for (const GroupKind kind : {GroupKind::fixture_scale, GroupKind::station_scale}) {
+        GroupTest test = suspicious(kind);
+        test.estimate = 776e-6;
+        test.is_settled = false;
+        const std::string what = group_notes({.tests = {test}, .visits = {}}, two_stations())[0].what;
+        EXPECT_THAT(what, HasSubstr("by how much is not known"));
+        EXPECT_THAT(what, testing::Not(HasSubstr("776")));
+        EXPECT_THAT(what, testing::Not(HasSubstr("ppm")));
+    }
 }
 
 TEST(GroupNotes, SayNothingOfGroupsThatAreNotSuspicious) {
