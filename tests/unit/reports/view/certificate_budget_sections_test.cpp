@@ -125,7 +125,7 @@ TEST(BudgetCertificate, SaysHowTheCoverageFactorWasFound) {
     EXPECT_THAT(text_of(r), HasSubstr("the coverage factor k = 2.58, which for a normal distribution corresponds to"));
     r.results[0].coverage = "convolution";
     r.results[0].k = 1.65;
-    r.results[0].coverage_note = "theta, uniform, has 90 % of the variance.";
+    r.results[0].coverage_note = "theta, uniform, has 90 % of the variance";
     std::string text = text_of(r);
     EXPECT_THAT(
         text,
@@ -138,14 +138,14 @@ TEST(BudgetCertificate, SaysHowTheCoverageFactorWasFound) {
     EXPECT_THAT(text, HasSubstr("half the width of the probabilistically symmetric interval that holds 99 % of the"));
     EXPECT_THAT(text, HasSubstr(" l length of the end gauge at 20 °C 50000838 93 nm 1.65 – "));
     r.results[0].coverage = "none";
-    r.results[0].coverage_note = "The inputs are correlated.";
+    r.results[0].coverage_note = "the inputs are correlated";
     r.results[0].k.reset();
     r.results[0].U.reset();
     r.results[0].printed.U = "";
     r.results[0].monte_carlo.reset();  // else its interval is stated
     text = text_of(r);
     EXPECT_THAT(text, HasSubstr("An expanded uncertainty cannot be stated; the standard uncertainty u is given"));
-    EXPECT_THAT(text, HasSubstr("On the coverage of l: The inputs are correlated."));
+    EXPECT_THAT(text, HasSubstr("On the coverage of l: the inputs are correlated."));
     EXPECT_THAT(text, HasSubstr(" 50000838 – 32 nm – – "));
     EXPECT_THAT(text, Not(HasSubstr("coverage factor k")));
 }
