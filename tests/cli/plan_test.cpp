@@ -382,7 +382,11 @@ TEST_F(Plan, ParametersHaveTheUncertaintyThatAnEvaluationStates) {
     }
     for (const json& range : rotary["ranges"]) {
         const std::string name = "range of " + range["name"].get<std::string>();
-        EXPECT_NEAR(u.at(name) / range["u"].get<double>(), 1.0, 0.05) << name;
+        // Where it is clear which angles are extreme, as of EXA and ECA; an evaluation of others states more (ADR 0090).
+        EXPECT_LT(u.at(name) / range["u"].get<double>(), 1.05) << name;
+        if (name == "range of EXA" || name == "range of ECA") {
+            EXPECT_NEAR(u.at(name) / range["u"].get<double>(), 1.0, 0.05) << name;
+        }
     }
     for (const json& error : rotary["axis_line"]) {
         const std::string name = error["name"].get<std::string>();
@@ -392,7 +396,8 @@ TEST_F(Plan, ParametersHaveTheUncertaintyThatAnEvaluationStates) {
     for (const json& parameter : rotary["iso230_2"]["parameters"]) {
         const std::string name = parameter["name"].get<std::string>();
         if (u.contains(name)) {
-            EXPECT_NEAR(u.at(name) / parameter["u"].get<double>(), 1.0, name[0] == 'E' ? 0.15 : 0.5) << name;
+            EXPECT_LT(u.at(name) / parameter["u"].get<double>(), 1.05) << name;
+            EXPECT_GT(u.at(name) / parameter["u"].get<double>(), 0.3) << name;
             ++compared;
         }
     }

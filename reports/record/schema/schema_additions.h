@@ -23,7 +23,7 @@ inline constexpr SentenceOfValue k_sentences_of_values[] = {
     {"budget_row/nu", "degrees of freedom; null: infinite"},
     {"budget_row/role",
      "fit: all parameters of a fit together; its components fit_data add up to it, fit_parameter do not; scatter: the "
-     "readings of a circle closure"},
+     "readings of a circle closure; extremes: of a range, what is not known of which values are extreme"},
     {"budget_row/printed/share", "percent"},
     {"result/nu_eff", "null: infinite"},
     {"result/k_numerical_error", "standard uncertainty of a k that was found by draws"},

@@ -53,7 +53,7 @@ TEST(PdfPageTexts, RefuseATemplateWithoutNumberOrMark) {
     const std::vector<std::pair<std::string, std::string>> edits = {
         {"align(right, breakable(head-right))", "[]"},      // no number and mark from page 2 on
         {"#for mark in view.mark { set-mark(mark) }", ""},  // no mark on page 1
-        {"strong(breakable(page.number))", "[]"},           // no number on page 1
+        {"bold(breakable(page.number))", "[]"},             // no number on page 1
         {"head-right: view.header_right", "head-right: view.header_right.slice(0, 12)"}};
     for (const auto& [what, with] : edits) {
         fs::remove_all(folder);
