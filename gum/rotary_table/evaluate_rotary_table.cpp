@@ -21,7 +21,6 @@
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/progress.h"
 #include "gum/rotary_table/document_units.h"
-#include "gum/rotary_table/positioning_scope.h"
 
 namespace gumcert::gum {
 
@@ -77,7 +76,6 @@ RotaryTableMonteCarlo monte_carlo_of(const RotaryTableRequest& request, const Ro
     options.histogram = false;
     const engine::TableParameters& parameters = *result.parameter_model->parameters();
     const std::vector<std::string>& names = parameters.short_names();
-    const PositioningScope scope = positioning_scope(*result.parameter_model);
     const auto reported = static_cast<std::size_t>(result.reported.budget.value.size());
     const std::size_t positioning = reported + static_cast<std::size_t>(parameters.layout().positioning);
     RotaryTableMonteCarlo monte_carlo;
@@ -91,7 +89,7 @@ RotaryTableMonteCarlo monte_carlo_of(const RotaryTableRequest& request, const Ro
         // deviations hold the noise of the distances already, and trials would add it once more (ADR 0015, 0017).
         const bool compared =
             i < reported || (!holds_noise_already(parameters, static_cast<Eigen::Index>(i - reported)) &&
-                             (i < positioning || scope.states(names[i - reported])));
+                             (i < positioning || result.positioning.states(names[i - reported])));
         monte_carlo.compared.push_back(compared);
         monte_carlo.law_stands.push_back(compared && law.u > 0.0 &&
                                          law_stands_for(joint->inputs(), result, static_cast<Eigen::Index>(i)));
@@ -186,23 +184,20 @@ void widen_positioning(RotaryTableResult& result, double coverage_probability) {
     const engine::TableParameterModel& model = *result.parameter_model;
     const engine::TableParameters& parameters = *model.parameters();
     const engine::TableParameterLayout& layout = parameters.layout();
-    if (layout.positioning_count == 0) {
-        return;
-    }
     // Many times the u of a difference of two: what lies further away needs no covariance.
     constexpr double k_far = 12.0;
-    const PositioningScope scope = positioning_scope(model);
     const auto& names = engine::positioning_parameter_names();
     for (Eigen::Index i = layout.positioning; i < layout.positioning + layout.positioning_count; ++i) {
         const std::string& name = parameters.short_names()[static_cast<std::size_t>(i)];
-        if (!scope.states(name) || !holds_noise_already(parameters, i)) {
+        if (!result.positioning.states(name) || !holds_noise_already(parameters, i)) {
             continue;
         }
         const auto parameter =
             static_cast<engine::PositioningParameter>(std::find(names.begin(), names.end(), name) - names.begin());
         const engine::PositioningExtremes all =
             engine::positioning_extremes(parameters.runs(), model.nominal_positions(), parameter);
-        const double distance = k_far * std::max(result.parameters.standard_uncertainty[i], scope.u_deviation);
+        const double distance =
+            k_far * std::max(result.parameters.standard_uncertainty[i], result.positioning.u_deviation);
         ExtremeValues values{.value = all.value,
                              .covariance = {},
                              .upper = near_extreme(all.upper, all.value, 1.0, distance),
@@ -293,6 +288,9 @@ RotaryTableResult evaluate_rotary_table(RotaryTableRequest& request, unsigned th
             std::make_shared<engine::TableParameterModel>(solution.model, measurement, solution.datum);
     }
     result.parameters = propagate(*result.parameter_model, probability);
+    if (result.parameter_model->parameters()->layout().positioning_count > 0) {
+        result.positioning = positioning_scope(*result.parameter_model);
+    }
     widen_ranges(result, measurement.angles.size(), probability);
     widen_positioning(result, probability);
     if (request.machine_frame) {

@@ -16,6 +16,7 @@
 #include "gum/quantity/progress.h"
 #include "gum/rotary_table/fixture_budget.h"
 #include "gum/rotary_table/location_errors.h"
+#include "gum/rotary_table/positioning_scope.h"
 #include "gum/rotary_table/rotary_table_request.h"
 
 namespace gumcert::gum {
@@ -49,6 +50,7 @@ struct RotaryTableResult {
     QuantityUncertainty reported;  ///< of the reported quantities
     std::shared_ptr<const engine::TableParameterModel> parameter_model;
     UncertaintyBudget parameters;                      ///< ranges, axis average line, positioning (ISO 230-2)
+    PositioningScope positioning;                      ///< which of the parameters of ISO 230-2 are stated
     std::optional<LocationErrors> location_errors;     ///< where the frame of the machine is known
     std::optional<QuantityUncertainty> contact_point;  ///< of the comparison: x, y, z at every angle
     std::optional<RotaryTableMonteCarlo> monte_carlo;

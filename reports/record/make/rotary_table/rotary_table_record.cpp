@@ -317,7 +317,7 @@ reports::EvaluationRecord rotary_table_record(const RotaryTableJob& job, const g
              stated_value(propagation, solution.quantities.reversal + static_cast<Eigen::Index>(c),
                           c < 3 ? k_um : k_arcsec)});
     }
-    fill_table_parameters(rotary, *result.parameter_model, measurement, result.parameters);
+    fill_table_parameters(rotary, *result.parameter_model, measurement, result.parameters, result.positioning);
     if (result.location_errors) {
         fill_location_errors(rotary, job, *result.location_errors);
     }

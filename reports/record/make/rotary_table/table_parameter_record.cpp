@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "gum/rotary_table/positioning_scope.h"
 #include "gum/rounding.h"
 #include "reports/record/make/record_parts.h"
 #include "reports/record/make/rotary_table/document_units.h"
@@ -58,7 +57,8 @@ reports::PositioningTarget target_of(double angle_deg, const engine::Positioning
 
 reports::PositioningAccuracy positioning_of(const engine::TableParameterModel& model,
                                             const engine::RotaryTableMeasurement& measurement,
-                                            const gum::UncertaintyBudget& propagation) {
+                                            const gum::UncertaintyBudget& propagation,
+                                            const gum::PositioningScope& scope) {
     const engine::TableParameters& parameters = *model.parameters();
     const engine::TableParameterLayout& layout = parameters.layout();
     reports::PositioningAccuracy accuracy;
@@ -66,7 +66,6 @@ reports::PositioningAccuracy positioning_of(const engine::TableParameterModel& m
     const auto [least_down, most_down] = run_counts(parameters.runs().down);
     accuracy.runs_up = static_cast<std::int64_t>(least_up);
     accuracy.runs_down = static_cast<std::int64_t>(least_down);
-    const gum::PositioningScope scope = gum::positioning_scope(model);
     for (Eigen::Index i = layout.positioning; i < layout.positioning + layout.positioning_count; ++i) {
         if (scope.states(parameters.short_names()[static_cast<std::size_t>(i)])) {
             accuracy.parameters.push_back(parameter_of(parameters, propagation, i));
@@ -138,8 +137,8 @@ reports::TableParameter table_parameter(const gum::UncertaintyBudget& propagatio
 }
 
 void fill_table_parameters(reports::RotaryTable& rotary, const engine::TableParameterModel& model,
-                           const engine::RotaryTableMeasurement& measurement,
-                           const gum::UncertaintyBudget& parameters) {
+                           const engine::RotaryTableMeasurement& measurement, const gum::UncertaintyBudget& parameters,
+                           const gum::PositioningScope& scope) {
     const engine::TableParameters& from = *model.parameters();
     const engine::TableParameterLayout& layout = from.layout();
     for (std::size_t c = 0; c < 6; ++c) {
@@ -152,7 +151,7 @@ void fill_table_parameters(reports::RotaryTable& rotary, const engine::TablePara
         rotary.axis_line.push_back(parameter_of(from, parameters, layout.axis_line + i));
     }
     if (layout.positioning_count > 0) {
-        rotary.iso230_2 = positioning_of(model, measurement, parameters);
+        rotary.iso230_2 = positioning_of(model, measurement, parameters, scope);
     }
 }
 
