@@ -14,6 +14,7 @@
 #include "jobs/budget/budget_fit_statement.h"
 #include "jobs/budget/budget_inputs.h"
 #include "jobs/budget/budget_job_statement.h"
+#include "jobs/budget/budget_points.h"
 #include "jobs/budget/budget_results.h"
 #include "jobs/budget/budget_statement.h"
 #include "jobs/budget/budget_tables.h"
@@ -73,7 +74,7 @@ private:
         }
         refuse_unused_equations();
         const std::optional<StatedCovariance> covariance = read_covariance(*root, *document_, files_, *problems_);
-        BudgetInputs inputs(*document_, covariance, files_, laboratory, *problems_);
+        BudgetInputs inputs(*document_, covariance, files_, *problems_);
         inputs.read(*root);
         std::map<std::string, std::size_t> positions;
         job_.inputs = inputs.inputs(positions);
@@ -88,15 +89,16 @@ private:
                 job_.sections[i].outputs = job_.outputs.size() - before;
             }
         }
+        BudgetPoints points(*document_, inputs, files_, laboratory, job_, *problems_);
         for (std::size_t i = 0; i < parts.size(); ++i) {
             const std::size_t before = job_.points.size();
-            inputs.read_points(parts[i], used_by(i), job_);
+            points.read(parts[i], used_by(i));
             if (!job_.sections.empty()) {
                 job_.sections[i].points = job_.points.size() - before;
             }
         }
         if (root->has("points") || root->has("sections")) {
-            inputs.finish_points(job_);
+            points.finish();
         }
         job_.standard_components = laboratory.components();
         job_.own_components = inputs.own_components();
@@ -110,10 +112,10 @@ private:
         for (std::size_t i = 0; i < parts.size(); ++i) {
             check_model(parts[i], i, inputs);
         }
-        check_sections(inputs);
+        check_sections(inputs, points);
         job_.certificate = read_certificate(files_, *document_, *problems_, &laboratory);
         job_.registered = job_.certificate ? laboratory.registered() : std::nullopt;
-        read_tables(parts, *document_, inputs, job_, *problems_);
+        read_tables(parts, *document_, inputs, points, job_, *problems_);
         warn_of_unused();
     }
 
@@ -338,7 +340,7 @@ private:
     }
 
     /// A result has one name in the whole job, and an input is used in one section at least.
-    void check_sections(const BudgetInputs& inputs) {
+    void check_sections(const BudgetInputs& inputs, const BudgetPoints& points) {
         if (job_.sections.empty() || problems_->refusals() > 0 || !inputs.symbols_are_whole()) {
             return;
         }
@@ -360,7 +362,7 @@ private:
         for (std::size_t i = 0; i < job_.inputs.size(); ++i) {
             bool is_used = false;
             for (std::size_t s = 0; s < job_.sections.size(); ++s) {
-                is_used = is_used || inputs.is_used(job_.inputs[i].name, s);
+                is_used = is_used || points.is_used(job_.inputs[i].name, s);
             }
             if (!is_used) {
                 unused_.push_back(i);

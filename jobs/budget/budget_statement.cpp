@@ -48,7 +48,7 @@ constexpr std::array<StatementRowKeys, 15> k_rows{
 
 constexpr std::array<std::string_view, 5> k_everywhere{"type", "source", "significance", "note", "name"};
 
-const StatementRowKeys& keys_of(StatementRow row) {
+const StatementRowKeys& keys_of_row(StatementRow row) {
     return *std::find_if(k_rows.begin(), k_rows.end(), [&](const StatementRowKeys& known) { return known.row == row; });
 }
 
@@ -143,7 +143,7 @@ std::optional<StatementRow> StatementReader::find_row() {
 }
 
 bool StatementReader::refuse_strangers(StatementRow row) const {
-    const StatementRowKeys& known = keys_of(row);
+    const StatementRowKeys& known = keys_of_row(row);
     bool belongs = true;
     for (const std::string_view key : keys_.present()) {
         const bool is_known = key == known.key || key == "unit" || key == "description" || key == "between_points" ||
@@ -271,7 +271,7 @@ bool StatementReader::is_representable(StatementRow row) const {
 // ---- rows -------------------------------------------------------------------------------------------------------
 
 bool StatementReader::read(StatementRow row) {
-    quantity_.statement = std::string{keys_of(row).key};
+    quantity_.statement = std::string{keys_of_row(row).key};
     switch (row) {
         case StatementRow::constant:
             return read_constant();

@@ -51,8 +51,9 @@ bool is_of_result(std::string_view word) {
 
 class TableReader {
 public:
-    TableReader(const JsonDocument& document, const BudgetInputs& inputs, BudgetJob& job, ProblemList& problems)
-        : document_(document), inputs_(inputs), job_(job), problems_(problems) {
+    TableReader(const JsonDocument& document, const BudgetInputs& inputs, const BudgetPoints& points, BudgetJob& job,
+                ProblemList& problems)
+        : document_(document), inputs_(inputs), points_(points), job_(job), problems_(problems) {
         if (job.sections.empty()) {
             results_.push_back(budget_results(job));
         }
@@ -87,6 +88,7 @@ public:
 private:
     const JsonDocument& document_;
     const BudgetInputs& inputs_;
+    const BudgetPoints& points_;
     BudgetJob& job_;
     ProblemList& problems_;
     std::vector<std::vector<std::pair<std::string, Unit>>> results_;  ///< one a section, or one alone
@@ -153,12 +155,12 @@ private:
                                                     [](const std::string& text) { return !text.empty(); });
     }
     [[nodiscard]] bool is_here(const gum::BudgetInput& i) const {
-        return job_.sections.empty() || inputs_.is_used(i.name, section_);
+        return job_.sections.empty() || points_.is_used(i.name, section_);
     }
     /// Whether a section with points uses an input, and shows its role.
     [[nodiscard]] bool is_shown_elsewhere(const gum::BudgetInput& i) const {
         for (std::size_t s = 0; s < job_.sections.size(); ++s) {
-            if (job_.sections[s].points > 0 && inputs_.is_used(i.name, s)) {
+            if (job_.sections[s].points > 0 && points_.is_used(i.name, s)) {
                 return true;
             }
         }
@@ -300,7 +302,7 @@ private:
     /// Its readings at a point, whatever stands beside them; none where it is stated otherwise, has one reading, or two
     /// series.
     [[nodiscard]] std::vector<double> readings_at(std::size_t i, std::size_t p) const {
-        if (!job_.sections.empty() && !inputs_.is_used(job_.inputs[i].name, section_of(p))) {
+        if (!job_.sections.empty() && !points_.is_used(job_.inputs[i].name, section_of(p))) {
             return {};
         }
         std::vector<double> readings;
@@ -978,7 +980,7 @@ private:
             added.unit = stated.unit.text();
             added.printed_unit = gum::unit_for_people(added.unit);
             for (std::size_t p = 0; p < job_.points.size(); ++p) {
-                if (!job_.sections.empty() && !inputs_.is_used(stated.name, section_of(p))) {
+                if (!job_.sections.empty() && !points_.is_used(stated.name, section_of(p))) {
                     added.values.emplace_back();
                     added.printed.emplace_back();
                     continue;
@@ -987,7 +989,7 @@ private:
                 const gum::InputTotal total = gum::input_total(here);
                 const double value = stated.unit.from_si(total.value);
                 added.values.emplace_back(value);
-                if (const std::optional<int> decimals = inputs_.decimals(stated.name, p)) {
+                if (const std::optional<int> decimals = points_.decimals(stated.name, p)) {
                     added.printed.push_back(as_written(value, *decimals));
                 } else if (is_computed(here) && total.u > 0.0) {
                     // Digits behind the uncertainty are those of a computation (JCGM 100:2008, 7.2.6).
@@ -1151,7 +1153,7 @@ private:
 }  // namespace
 
 void read_tables(const std::vector<JsonObject>& parts, const JsonDocument& document, const BudgetInputs& inputs,
-                 BudgetJob& job, ProblemList& problems) {
+                 const BudgetPoints& points, BudgetJob& job, ProblemList& problems) {
     const bool has_limits =
         job.certificate && std::any_of(job.certificate->specifications.begin(), job.certificate->specifications.end(),
                                        [](const auto& s) { return s.limits.has_value(); });
@@ -1160,7 +1162,7 @@ void read_tables(const std::vector<JsonObject>& parts, const JsonDocument& docum
     if (!is_wanted || problems.refusals() > 0 || !inputs.symbols_are_whole()) {
         return;  // nothing to show; or names and units are not known, as of a standard whose file was refused
     }
-    TableReader(document, inputs, job, problems).read(parts);
+    TableReader(document, inputs, points, job, problems).read(parts);
 }
 
 }  // namespace gumcert::jobs

@@ -4,6 +4,7 @@
 
 #include "jobs/budget/budget_inputs.h"
 #include "jobs/budget/budget_job.h"
+#include "jobs/budget/budget_points.h"
 #include "jobs/json_object.h"
 
 namespace gumcert::jobs {
@@ -14,8 +15,9 @@ namespace gumcert::jobs {
 /// Checks that tables leave out no point and no U, and that every point has the limits that a specification states for
 /// it; fills in tables, units of results by points, and the columns of the inputs that tables and limits name.
 /// \param parts   the sections of the job, or the job itself
-/// \param inputs  those of the job, whose points were read
+/// \param inputs  those of the job
+/// \param points  of all sections, read
 void read_tables(const std::vector<JsonObject>& parts, const JsonDocument& document, const BudgetInputs& inputs,
-                 BudgetJob& job, ProblemList& problems);
+                 const BudgetPoints& points, BudgetJob& job, ProblemList& problems);
 
 }  // namespace gumcert::jobs
