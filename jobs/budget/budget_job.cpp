@@ -24,6 +24,7 @@
 #include "jobs/job_kind.h"
 #include "jobs/job_reader.h"
 #include "jobs/json_object.h"
+#include "jobs/laboratory/laboratory_certificate.h"
 #include "jobs/laboratory/laboratory_use.h"
 #include "text/counts.h"
 #include "text/visible_text.h"
@@ -113,7 +114,8 @@ private:
             check_model(parts[i], i, inputs);
         }
         check_sections(inputs, points);
-        job_.certificate = read_certificate(files_, *document_, *problems_, &laboratory);
+        LaboratoryCertificate completion(laboratory);
+        job_.certificate = read_certificate(files_, *document_, *problems_, &completion);
         job_.registered = job_.certificate ? laboratory.registered() : std::nullopt;
         read_tables(parts, *document_, inputs, points, job_, *problems_);
         warn_of_unused();

@@ -16,6 +16,7 @@
 #include "jobs/job_files.h"
 #include "jobs/job_reader.h"
 #include "jobs/json_object.h"
+#include "jobs/laboratory/laboratory_certificate.h"
 #include "jobs/laboratory/laboratory_use.h"
 #include "jobs/statement_keys.h"
 #include "text/counts.h"
@@ -93,7 +94,8 @@ private:
             read_readings(std::move(*file), root);
         }
         LaboratoryUse laboratory(files_, *document_, *problems_);
-        job_.certificate = read_certificate(files_, *document_, *problems_, &laboratory);
+        LaboratoryCertificate completion(laboratory);
+        job_.certificate = read_certificate(files_, *document_, *problems_, &completion);
     }
 
     void read_unit_of(const JsonObject& root) {

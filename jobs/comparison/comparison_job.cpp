@@ -14,6 +14,7 @@
 #include "jobs/comparison/comparison_statement.h"
 #include "jobs/job_kind.h"
 #include "jobs/job_reader.h"
+#include "jobs/laboratory/laboratory_certificate.h"
 #include "jobs/laboratory/laboratory_use.h"
 #include "text/visible_text.h"
 
@@ -97,7 +98,8 @@ private:
                 break;
         }
         LaboratoryUse laboratory(files_, document, problems);
-        job_.certificate = read_certificate(files_, document, problems, &laboratory);
+        LaboratoryCertificate completion(laboratory);
+        job_.certificate = read_certificate(files_, document, problems, &completion);
         if (job_.certificate) {
             require_whole_amendment(*job_.certificate, document.where("/certificate/amendment"), problems);
         }

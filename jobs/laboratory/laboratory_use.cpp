@@ -12,7 +12,10 @@
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/unit.h"
 #include "jobs/certificate/certificate_archive.h"
+#include "jobs/laboratory/json_members.h"
+#include "jobs/laboratory/laboratory_certificate.h"
 #include "jobs/laboratory/laboratory_codes.h"
+#include "jobs/laboratory/unit_change.h"
 #include "laboratory/outlook.h"
 #include "text/lists.h"
 #include "text/numbers.h"
@@ -32,16 +35,6 @@ using nlohmann::json;
 /// Keys of an input that say which standard it is and how it is used.
 constexpr std::array<std::string_view, 7> k_reference_keys{"standard", "quantity", "range", "mode",
                                                            "at",       "date",     "take"};
-
-/// Puts a value in the place of another one that was refused: readers say nothing more of it.
-void discard(json& value) {
-    value = json(json::value_t::discarded);
-}
-
-std::string text_in(const json& object, const char* key) {
-    const auto found = object.find(key);
-    return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
-}
 
 /// As the job writes it; "" where it does not.
 std::string stated_unit(const JsonDocument& job, const std::string& name) {
@@ -124,53 +117,8 @@ std::string row_pointer(std::size_t row, const std::string& input) {
     return child_pointer(child_pointer("/points", row), input);
 }
 
-/// Numbers of one unit in another one, and as they are where the two are one text.
-class UnitChange {
-public:
-    UnitChange(const std::string& from, const std::string& to)
-        : is_same_(from == to), from_(gum::Unit::parse(from)), to_(gum::Unit::parse(to)) {}
-
-    [[nodiscard]] bool is_possible() const {
-        return from_.dimension() == to_.dimension() && from_.is_celsius_temperature() == to_.is_celsius_temperature();
-    }
-    [[nodiscard]] double value(double v) const { return is_same_ ? v : in_decimals(to_.from_si(from_.to_si(v))); }
-    [[nodiscard]] double difference(double v) const {
-        return is_same_ ? v : in_decimals(to_.difference_from_si(from_.difference_to_si(v)));
-    }
-
-private:
-    /// Without what two conversions leave behind the last digit of a decimal number.
-    static double in_decimals(double v) {
-        constexpr int k_digits_of_double = 15;
-        const std::string text = text::significant(v, k_digits_of_double);
-        double rounded = v;
-        std::from_chars(text.data(), text.data() + text.size(), rounded);
-        return rounded;
-    }
-
-    bool is_same_;
-    gum::Unit from_, to_;
-};
-
 const char* word_of(laboratory::Answer answer) {
     return answer == laboratory::Answer::yes ? "yes" : answer == laboratory::Answer::no ? "no" : "unknown";
-}
-
-json localised_json(const certificate::LocalisedText& text) {
-    if (text.by_language.empty()) {
-        return text.plain;
-    }
-    json languages = json::object();
-    for (const auto& [language, words] : text.by_language) {
-        languages[language] = words;
-    }
-    return languages;
-}
-
-void set_if_stated(json& row, const char* key, const std::string& text) {
-    if (!text.empty()) {
-        row[key] = text;
-    }
 }
 
 /// The same place for every value that was put there, so that messages have a line and a column.
@@ -184,169 +132,6 @@ void place_below(JsonDocument& document, const std::string& pointer, const json&
         for (std::size_t i = 0; i < value.size(); ++i) {
             place_below(document, child_pointer(pointer, i), value[i], place);
         }
-    }
-}
-
-/// U of a row in SI units, for two rows in different units.
-std::optional<double> U_in_si(const json& row, const char* key) {
-    const auto U = row.find(key);
-    const std::string unit = text_in(row, "unit");
-    if (U == row.end() || !U->is_number() || unit.empty()) {
-        return std::nullopt;
-    }
-    try {
-        return gum::Unit::parse(unit).difference_to_si(U->get<double>());
-    } catch (const gum::InputError&) {
-        return std::nullopt;  // refused where certificate data are read
-    }
-}
-
-constexpr double k_same_U = 1e-9;
-
-/// Whether the unit of a row is of the kind of another one: 2 µA are not 2 µV, though both are 2e-6.
-bool is_of_kind(const json& row, const std::string& unit) {
-    const std::string stated = text_in(row, "unit");
-    return gum::Unit::parse(stated.empty() ? "1" : stated).dimension() == gum::Unit::parse(unit).dimension();
-}
-
-/// To the two digits of an uncertainty.
-double in_two_digits(double U) {
-    const std::string text = text::significant(U, 2);
-    std::from_chars(text.data(), text.data() + text.size(), U);
-    return U;
-}
-
-/// U of a line for the list of standards: a share of the value has as many digits as the value.
-double shown_U(const laboratory::CalibrationResult& line, double U) {
-    return line.relative_U ? in_two_digits(U) : U;
-}
-
-double factor_of(const laboratory::CalibrationResult& line) {
-    return line.k ? *line.k : line.U / laboratory::standard_uncertainty(line);
-}
-
-/// From the smallest U of lines of one kind of quantity to the largest, in the unit of the first: that of one line alone
-/// would be taken for all of them.
-/// \param lines  those of the kind of the first are taken away
-void put_uncertainty_of_kind(json& row, std::vector<const laboratory::CalibrationResult*>& lines) {
-    const std::string unit = gum::unit_of_difference(lines.front()->unit);
-    std::vector<std::pair<double, double>> all;  // U in the unit, and its k
-    std::erase_if(lines, [&](const laboratory::CalibrationResult* line) {
-        const UnitChange change(gum::unit_of_difference(line->unit), unit);
-        if (change.is_possible()) {
-            all.emplace_back(shown_U(*line, change.difference(line->U)), factor_of(*line));
-        }
-        return change.is_possible();
-    });
-    const auto less = [](const auto& a, const auto& b) { return a.first / a.second < b.first / b.second; };
-    const double k = std::max_element(all.begin(), all.end(), less)->second;
-    for (auto& [U, own] : all) {
-        if (std::abs(own - k) > k_same_U * k) {  // of another k: two digits of what it is with this one
-            U = in_two_digits(U / own * k);
-        }
-    }
-    const auto [least, largest] = std::minmax_element(all.begin(), all.end());
-    row["U"] = least->first;
-    row["k"] = k;
-    row["unit"] = unit;
-    if (largest->first > least->first * (1.0 + k_same_U)) {
-        row["U_to"] = largest->first;
-    }
-}
-
-/// U of the lines that were used, each kind of quantity by itself: volts say nothing of amperes.
-void put_uncertainty(json& row, std::vector<const laboratory::CalibrationResult*> lines) {
-    put_uncertainty_of_kind(row, lines);
-    while (!lines.empty()) {
-        json further = json::object();
-        put_uncertainty_of_kind(further, lines);
-        row["further"].push_back(std::move(further));
-    }
-}
-
-/// A value as people write it: 0.00006, where JSON has 6e-05.
-std::string in_words(const json& value) {
-    constexpr double k_least_plain = 1e-9;
-    return value.is_number_float() ? text::shortest_plain(value.get<double>(), k_least_plain) : described(value);
-}
-
-/// What tells an entry of a list: a text or number, else its id or name, else the beginning of its JSON.
-std::string described_entry(const json& entry) {
-    if (!entry.is_structured()) {
-        return in_words(entry);
-    }
-    for (const char* key : {"id", "name", "measurand"}) {
-        if (const auto found = entry.find(key); entry.is_object() && found != entry.end() && found->is_string()) {
-            return described(*found);
-        }
-    }
-    constexpr std::size_t k_longest = 60;
-    const std::string text = entry.dump(-1, ' ', true);
-    return text.size() > k_longest ? text.substr(0, k_longest) + "…" : text;
-}
-
-/// Where two values part: the members and the entries that differ, each by what stands there.
-/// \param where  of the stated one
-void note_differences(const json& stated, const json& registered, const std::string& subject, const std::string& where,
-                      std::vector<certificate::LaboratoryRegister::Contradiction>& found) {
-    if (stated.is_discarded()) {
-        return;  // refused where it was read
-    }
-    const auto note = [&](const std::string& place, const json* a, const json* b) {
-        found.push_back({.where = place,
-                         .subject = subject,
-                         .stated = a == nullptr ? "nothing" : described_entry(*a),
-                         .registered = b == nullptr ? "nothing" : described_entry(*b)});
-    };
-    if (stated.is_object() && registered.is_object()) {
-        for (const auto& [key, value] : stated.items()) {
-            const auto other = registered.find(key);
-            if (other == registered.end()) {
-                note(child_pointer(where, key), &value, nullptr);
-            } else if (*other != value) {
-                note_differences(value, *other, subject, child_pointer(where, key), found);
-            }
-        }
-        for (const auto& [key, value] : registered.items()) {
-            if (!stated.contains(key)) {
-                note(child_pointer(where, key), nullptr, &value);
-            }
-        }
-        return;
-    }
-    if (!stated.is_array() || !registered.is_array()) {
-        note(where, &stated, &registered);
-        return;
-    }
-    const auto is_in = [](const json& list, const json& entry) {
-        return std::find(list.begin(), list.end(), entry) != list.end();
-    };
-    const auto is_called_alike = [](const json& a, const json& b) {
-        return a.is_object() && b.is_object() && a.contains("id") && b.contains("id") && a["id"] == b["id"];
-    };
-    const std::size_t before = found.size();
-    for (std::size_t i = 0; i < stated.size(); ++i) {
-        if (is_in(registered, stated[i])) {
-            continue;
-        }
-        const auto alike = std::find_if(registered.begin(), registered.end(),
-                                        [&](const json& other) { return is_called_alike(stated[i], other); });
-        if (alike != registered.end()) {
-            note_differences(stated[i], *alike, subject, child_pointer(where, i), found);
-        } else {
-            note(child_pointer(where, i), &stated[i], nullptr);
-        }
-    }
-    for (const json& other : registered) {
-        const bool is_known = is_in(stated, other) || std::any_of(stated.begin(), stated.end(), [&](const json& entry) {
-                                  return is_called_alike(entry, other);
-                              });
-        if (!is_known) {
-            note(where, nullptr, &other);
-        }
-    }
-    if (found.size() == before) {  // the same entries in another order, or one of them twice
-        note(where, &stated, &registered);
     }
 }
 
@@ -865,332 +650,16 @@ const std::string& LaboratoryUse::day_of_work() {
     return *day_of_work_;
 }
 
-// ---- certificate data -----------------------------------------------------------------------------------------------
+// ---- for certificate data -------------------------------------------------------------------------------------------
 
-void LaboratoryUse::complete(JsonDocument& document, const CertificatePlace& place) {
-    json& data = document.value.at(json::json_pointer(place.pointer));
-    if (!data.is_object() || refuse_without_folder(data, place)) {
-        return;
-    }
-    if (const LaboratoryFile* file = folder_->laboratory()) {
-        if (file->laboratory.is_object()) {
-            json registered = file->laboratory;
-            name_in_folder(registered, "logo");
-            complete_object(data, "laboratory", registered, "the laboratory", "");
-        }
-        if (file->accreditation.is_object() && text_in(data, "status") != "not_accredited") {
-            complete_accreditation(data, *file);
-        }
-        complete_persons(data, *file, place);
-        for (const SignatoryStatement& person : file->signatories) {
-            facts_.signatories.push_back({person.name, person.from, person.to, person.methods, person.authorises});
-        }
-    } else if (data.contains("persons") && data["persons"].is_object()) {
-        for (auto& [role, person] : data["persons"].items()) {
-            if (person.is_string()) {
-                discard(person);  // whom it means stands in the file that was refused
-            }
-        }
-    }
-    complete_by_id(data, "customer", place, "", true);
-    complete_by_id(data, "method", place, "", false);
-    if (const auto sections = data.find("sections"); sections != data.end() && sections->is_array()) {
-        for (std::size_t i = 0; i < sections->size(); ++i) {
-            if ((*sections)[i].is_object()) {
-                complete_by_id((*sections)[i], "method", place, child_pointer("/sections", i), false);
-            }
-        }
-    }
-    complete_standards(data, place);
+const std::vector<const laboratory::CalibrationResult*>& LaboratoryUse::lines_of(const std::string& standard) const {
+    static const std::vector<const laboratory::CalibrationResult*> k_none;
+    const auto found = lines_of_.find(standard);
+    return found == lines_of_.end() ? k_none : found->second;
 }
 
 std::optional<certificate::LaboratoryRegister> LaboratoryUse::registered() const {
     return folder_ ? std::optional(facts_) : std::nullopt;
-}
-
-/// \return whether there is no folder; what refers to one is refused then
-bool LaboratoryUse::refuse_without_folder(json& data, const CertificatePlace& place) {
-    if (folder_) {
-        return false;
-    }
-    const auto refuse = [&](json& value, const std::string& relative, const std::string& example) {
-        if (value.is_string() || (value.is_object() && value.contains("id"))) {
-            place.below(relative).refuse(
-                k_laboratory_missing, described(value) + ", and no laboratory",
-                "what is not written out stands in the files of the laboratory",
-                "add \"laboratory\": \"FOLDER\" to the job, or use --laboratory FOLDER; without such a "
-                "folder write it out" +
-                    example);
-            discard(value);
-        }
-    };
-    for (const char* key : {"customer", "method"}) {
-        if (data.contains(key)) {
-            refuse(data[key], std::string("/") + key, "");
-        }
-    }
-    if (data.contains("sections") && data["sections"].is_array()) {
-        for (std::size_t i = 0; i < data["sections"].size(); ++i) {
-            if (json& section = data["sections"][i]; section.is_object() && section.contains("method")) {
-                refuse(section["method"], child_pointer("/sections", i) + "/method", "");
-            }
-        }
-    }
-    if (data.contains("persons") && data["persons"].is_object()) {
-        for (auto& [key, person] : data["persons"].items()) {
-            refuse(person, child_pointer("/persons", key), R"(, such as {"name": "A. Feld"})");
-        }
-    }
-    if (data.contains("standards") && data["standards"].is_array()) {
-        for (std::size_t i = 0; i < data["standards"].size(); ++i) {
-            refuse(data["standards"][i], child_pointer("/standards", i), "");
-        }
-    }
-    return true;
-}
-
-/// Fills in what an object of the data does not state, and notes what it states otherwise.
-void LaboratoryUse::complete_object(json& data, const std::string& key, const json& registered,
-                                    const std::string& subject, const std::string& pointer) {
-    json& object = data[key];
-    if (object.is_null()) {
-        object = json::object();
-    }
-    if (!object.is_object()) {
-        return;  // its reader refuses it
-    }
-    for (const auto& [name, value] : registered.items()) {
-        const auto stated = object.find(name);
-        if (stated == object.end()) {
-            object[name] = value;
-        } else if (*stated != value && !stated->is_discarded()) {
-            note_differences(*stated, value, subject, pointer + "/" + key + "/" + name, facts_.contradictions);
-        }
-    }
-}
-
-void LaboratoryUse::complete_by_id(json& data, const char* key, const CertificatePlace& place, const std::string& below,
-                                   bool is_customer) {
-    const auto found = data.find(key);
-    if (found == data.end()) {
-        return;
-    }
-    const bool is_reference = found->is_object() && found->contains("id");
-    if (!found->is_string() && !is_reference) {
-        return;
-    }
-    json& value = *found;
-    const CertificatePlace at = place.below(below + "/" + key + (is_reference ? "/id" : ""));
-    const json id = is_reference ? value["id"] : value;
-    if (!id.is_string() || !LaboratoryFolder::is_identification(id.get_ref<const std::string&>())) {
-        at.refuse(k_laboratory_id, described(id),
-                  "an identification is the name of a file: letters, digits, '-', '_' and '.'",
-                  "name it as its file is named, without .json");
-        discard(value);
-        return;
-    }
-    const bool is_absent = refuse_absent(is_customer ? "customers" : "methods", id.get<std::string>(), at);
-    const json* registered = is_absent     ? nullptr
-                             : is_customer ? folder_->customer(id.get<std::string>())
-                                           : folder_->method(id.get<std::string>());
-    if (registered == nullptr) {
-        discard(value);
-        return;
-    }
-    if (!is_reference) {
-        value = *registered;
-        return;
-    }
-    value.erase("id");
-    json other = *registered;
-    if (is_customer) {  // contact and order are those of this work
-        other.update(value);
-        value = std::move(other);
-        return;
-    }
-    if (value.contains("deviations") || value.contains("no_deviations")) {
-        other.erase("deviations");
-        other.erase("no_deviations");
-    }
-    complete_object(data, key, other, std::string("the ") + key, below);
-}
-
-/// Names of files are relative to the folder there, and to the job here.
-void LaboratoryUse::name_in_folder(json& object, const char* key) const {
-    if (const std::string file = text_in(object, key); !file.empty()) {
-        object[key] = folder_->name_of(file);
-    }
-}
-
-void LaboratoryUse::complete_accreditation(json& data, const LaboratoryFile& file) {
-    json registered = file.accreditation;
-    name_in_folder(registered, "symbol_file");
-    if (!registered.contains("signatories")) {
-        json names = json::array();
-        for (const SignatoryStatement& person : file.signatories) {
-            if (person.authorises) {
-                names.push_back(person.name);
-            }
-        }
-        if (!names.empty()) {
-            registered["signatories"] = std::move(names);
-        }
-    }
-    complete_object(data, "accreditation", registered, "the accreditation", "");
-}
-
-void LaboratoryUse::complete_persons(json& data, const LaboratoryFile& file, const CertificatePlace& place) {
-    if (!data.contains("persons") || !data["persons"].is_object()) {
-        return;
-    }
-    for (auto& [role, person] : data["persons"].items()) {
-        if (!person.is_string()) {
-            continue;
-        }
-        const auto found = std::find_if(file.signatories.begin(), file.signatories.end(),
-                                        [&person = person](const SignatoryStatement& one) { return one.id == person; });
-        if (found == file.signatories.end()) {
-            std::vector<std::string> known;
-            for (const SignatoryStatement& one : file.signatories) {
-                known.push_back(text::in_quotes(one.id));
-            }
-            place.below(child_pointer("/persons", role))
-                .refuse(k_laboratory_person, described(person), "laboratory.json names " + text::listed(known, 20),
-                        "name one of them, or write the person out");
-            discard(person);
-            continue;
-        }
-        json written{{"name", found->name}};
-        set_if_stated(written, "function", found->function);
-        set_if_stated(written, "authorised_from", found->from);
-        set_if_stated(written, "authorised_to", found->to);
-        person = std::move(written);
-    }
-}
-
-json LaboratoryUse::row_of(const StandardRecord& record, const std::string& day) const {
-    const laboratory::Calibration* calibration = laboratory::calibration_on(record, day);
-    const laboratory::Calibration& last = calibration != nullptr ? *calibration : record.calibrations.back();
-    json row{{"name", localised_json(record.description)},
-             {"identification", record.id},
-             {"certificate", last.certificate},
-             {"calibrated", last.calibrated},
-             {"role", record.role}};
-    if (!last.issuer.empty()) {
-        row["issuer"] = localised_json(last.issuer);
-    }
-    set_if_stated(row, "issuer_accreditation", last.issuer_accreditation);
-    set_if_stated(row, "route", last.route);
-    set_if_stated(row, "evidence", last.evidence);
-    set_if_stated(row, "valid_to",
-                  calibration != nullptr ? laboratory::calibration_outlook(record, day).last_day : last.valid_to);
-    set_if_stated(row, "sha256", last.sha256);
-    const auto used = lines_of_.find(record.id);
-    put_uncertainty(row, used != lines_of_.end() ? used->second : std::vector{&last.results.front()});
-    return row;
-}
-
-void LaboratoryUse::compare_standard(const json& stated, const json& row, const StandardRecord& record,
-                                     const std::string& pointer) {
-    const auto contradict = [&](const std::string& key, const std::string& a, const std::string& b) {
-        facts_.contradictions.push_back({.where = pointer + "/" + key,
-                                         .subject = "the standard \"" + record.id + "\"",
-                                         .stated = a,
-                                         .registered = b});
-    };
-    for (const auto& [key, value] : stated.items()) {
-        if (key == "name" || key == "identification" || value.is_discarded()) {
-            continue;  // a name may be worded for the reader of a certificate
-        }
-        if (key == "further") {
-            for (std::size_t i = 0; value.is_array() && i < value.size(); ++i) {
-                if (value[i].is_object()) {  // else its reader refuses it
-                    compare_standard(value[i], row, record, child_pointer(pointer + "/further", i));
-                }
-            }
-            continue;
-        }
-        const auto registered = row.find(key);
-        if (key == "U" || key == "U_to" || key == "k" || key == "unit") {
-            // Of any of its lines, in any unit.
-            const laboratory::Calibration* calibration = laboratory::calibration_on(record, text_in(row, "calibrated"));
-            const std::optional<double> U = U_in_si(stated, key == "U_to" ? "U_to" : "U");
-            bool fits = false;
-            for (const laboratory::CalibrationResult& line : calibration->results) {
-                const double of_line = gum::Unit::parse(line.unit).difference_to_si(line.U);
-                const double k = factor_of(line);
-                fits = fits || (key == "k" ? value.is_number() && std::abs(value.get<double>() - k) <= k_same_U * k
-                                           : U && is_of_kind(stated, line.unit) &&
-                                                 (std::abs(*U - of_line) <= k_same_U * of_line ||
-                                                  (line.relative_U && in_two_digits(*U) == in_two_digits(of_line))));
-            }
-            if (!fits && (key == "k" || (key != "unit" && U))) {
-                const auto of_row = registered == row.end() ? row.find("U") : registered;
-                contradict(key, in_words(value) + (key != "k" ? " " + text_in(stated, "unit") : std::string()),
-                           in_words(*of_row) + (key != "k" ? " " + text_in(row, "unit") : std::string()));
-            }
-        } else if (registered == row.end() ? value.is_string() : *registered != value) {
-            contradict(key, in_words(value), registered == row.end() ? "nothing" : in_words(*registered));
-        }
-    }
-}
-
-void LaboratoryUse::complete_standards(json& data, const CertificatePlace& place) {
-    const std::string day = day_of_work();
-    const bool is_listed = data.contains("standards");
-    json& list = data["standards"];
-    if (!is_listed) {
-        list = json::array();
-    }
-    if (!list.is_array()) {
-        return;  // its reader refuses it
-    }
-    std::vector<std::string> named;
-    for (std::size_t i = 0; i < list.size(); ++i) {
-        json& entry = list[i];
-        const std::string pointer = child_pointer("/standards", i);
-        if (entry.is_string()) {
-            entry = json{{"identification", entry}};
-        }
-        const std::string id = entry.is_object() ? text_in(entry, "identification") : "";
-        if (id.empty()) {
-            continue;
-        }
-        named.push_back(id);
-        const StandardRecord* record = LaboratoryFolder::is_identification(id) ? folder_->standard(id, false) : nullptr;
-        if (record == nullptr) {
-            facts_.not_registered.push_back(id);
-            if (!entry.contains("name")) {
-                const bool is_told =
-                    LaboratoryFolder::is_identification(id) && refuse_absent("standards", id, place.below(pointer));
-                if (!is_told) {
-                    place.below(pointer).refuse(
-                        k_laboratory_id, text::in_quotes(id) + " is not in the register",
-                        "a standard that is named only stands in standards/" + text::visible(id) + ".json",
-                        "add it to the register, or write the standard out");
-                }
-                discard(entry);
-            }
-            continue;
-        }
-        note_day(*record, day);
-        const json row = row_of(*record, day);
-        compare_standard(entry, row, *record, pointer);
-        const bool states_U = entry.contains("U");  // and whether it is that of several lines
-        for (const auto& [key, value] : row.items()) {
-            if (!entry.contains(key) && !((key == "U_to" || key == "further") && states_U)) {
-                entry[key] = value;
-            }
-        }
-    }
-    for (const std::string& id : used_) {
-        if (std::find(named.begin(), named.end(), id) == named.end()) {
-            if (is_listed) {
-                facts_.not_listed.push_back(id);
-            }
-            list.push_back(row_of(*folder_->standard(id), day));
-        }
-    }
 }
 
 std::optional<certificate::LaboratoryRegister> register_of_job(const FileSource& source, const std::string& job_file) {
@@ -1217,7 +686,8 @@ std::optional<certificate::LaboratoryRegister> register_of_job(const FileSource&
             use.fill_rows(filled, *table, columns, *table_file->problems);
         }
     }
-    (void)read_certificate(files, *document, *file.problems, &use);
+    LaboratoryCertificate completion(use);
+    (void)read_certificate(files, *document, *file.problems, &completion);
     return use.registered();
 }
 

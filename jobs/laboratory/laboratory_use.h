@@ -31,9 +31,9 @@ struct StandardComponent {
 /// know statements of uncertainty and certificate data only, wherever they come from.
 ///
 /// An input, or what a point states of it, with "standard": "STD-017" gets `components`: the calibration, the
-/// interpolation where there is one, and the drift up to the day of use; those that it states itself come after them. In
-/// certificate data, what is missing is filled in, and what contradicts the register is noted for the gates.
-class LaboratoryUse final : public CertificateCompletion {
+/// interpolation where there is one, and the drift up to the day of use; those that it states itself come after them.
+/// Certificate data are filled in by LaboratoryCertificate.
+class LaboratoryUse {
 public:
     /// \param job  as it was read; must outlive this, like the files and the list
     LaboratoryUse(JobFiles& files, const JsonDocument& job, ProblemList& problems);
@@ -63,10 +63,27 @@ public:
     using StandardComponents = std::map<std::pair<std::string, std::string>, StandardComponent>;
     [[nodiscard]] const StandardComponents& components() const { return components_; }
 
-    void complete(JsonDocument& document, const CertificatePlace& place) override;
-
     /// What the gates hold against the certificate; none without a folder.
     [[nodiscard]] std::optional<certificate::LaboratoryRegister> registered() const;
+
+    // ---- for certificate data ---------------------------------------------------------------------------------------
+
+    /// Null where the job has none.
+    [[nodiscard]] LaboratoryFolder* folder() { return folder_ ? &*folder_ : nullptr; }
+    /// What registered() gives.
+    [[nodiscard]] certificate::LaboratoryRegister& facts() { return facts_; }
+    /// Standards that the job draws on, in the order of its inputs.
+    [[nodiscard]] const std::vector<std::string>& used() const { return used_; }
+    /// The lines of the certificates of a standard that inputs take, each once.
+    [[nodiscard]] const std::vector<const laboratory::CalibrationResult*>& lines_of(const std::string& standard) const;
+    /// The last day of the work by the certificate data, else its first; "" where they state none.
+    [[nodiscard]] const std::string& day_of_work();
+    /// Tells once that the folder has no such file, with what it has.
+    /// \param part  "standards", "customers", "methods"
+    /// \return whether there is none
+    bool refuse_absent(const std::string& part, const std::string& id, const CertificatePlace& place);
+    /// Notes for the gates where the plan of a standard wants it calibrated before a day of its use.
+    void note_day(const laboratory::StandardRecord& record, const std::string& day);
 
 private:
     using Json = nlohmann::json;
@@ -77,13 +94,7 @@ private:
     void fill_row(const JsonDocument& job, const CsvTable& table, std::span<const std::string_view> columns,
                   std::size_t row, const std::string& input, ProblemList& problems);
     [[nodiscard]] const laboratory::StandardRecord* standard_of(const Json& id, const CertificatePlace& place);
-    /// Tells once that the folder has no such file, with what it has.
-    /// \param part  "standards", "customers", "methods"
-    /// \return whether there is none
-    bool refuse_absent(const std::string& part, const std::string& id, const CertificatePlace& place);
     void note_use(const std::string& standard);
-    /// Notes for the gates where the plan of a standard wants it calibrated before a day of its use.
-    void note_day(const laboratory::StandardRecord& record, const std::string& day);
     /// "" where it is left out; nothing where it was refused.
     [[nodiscard]] static std::optional<std::string> read_take(const JsonDocument& job, const Json& statement,
                                                               const std::string& pointer, ProblemList& problems);
@@ -95,21 +106,6 @@ private:
                                                     const laboratory::StandardUse& use, const std::string& unit,
                                                     bool is_deviation, const CertificatePlace& place);
     void warn_of_shared_standards(const JsonDocument& job);
-    [[nodiscard]] const std::string& day_of_work();
-
-    [[nodiscard]] bool refuse_without_folder(Json& data, const CertificatePlace& place);
-    void complete_object(Json& data, const std::string& key, const Json& registered, const std::string& subject,
-                         const std::string& pointer);
-    /// \param below  pointer of the object that has the key, within the certificate data
-    void complete_by_id(Json& data, const char* key, const CertificatePlace& place, const std::string& below,
-                        bool is_customer);
-    void name_in_folder(Json& object, const char* key) const;
-    void complete_accreditation(Json& data, const LaboratoryFile& file);
-    void complete_persons(Json& data, const LaboratoryFile& file, const CertificatePlace& place);
-    void complete_standards(Json& data, const CertificatePlace& place);
-    void compare_standard(const Json& stated, const Json& row, const laboratory::StandardRecord& record,
-                          const std::string& pointer);
-    [[nodiscard]] Json row_of(const laboratory::StandardRecord& record, const std::string& day) const;
 
     JobFiles& files_;
     const JsonDocument& job_;

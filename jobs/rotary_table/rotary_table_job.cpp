@@ -8,6 +8,7 @@
 #include "jobs/certificate/certificate_archive.h"
 #include "jobs/certificate/certificate_statement.h"
 #include "jobs/job_reader.h"
+#include "jobs/laboratory/laboratory_certificate.h"
 #include "jobs/laboratory/laboratory_use.h"
 #include "jobs/rotary_table/rotary_table_environment.h"
 #include "jobs/rotary_table/rotary_table_exclusion.h"
@@ -310,7 +311,8 @@ private:
             read_reference(reading, *reference, std::move(reference_files), places, source_);
         }
         LaboratoryUse laboratory(files_, reading.document, reading.problems);
-        job_.certificate = read_certificate(files_, reading.document, reading.problems, &laboratory);
+        LaboratoryCertificate completion(laboratory);
+        job_.certificate = read_certificate(files_, reading.document, reading.problems, &completion);
         read_fixture_budget(reading, names, source_);
     }
 
