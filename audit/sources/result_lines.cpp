@@ -188,6 +188,7 @@ void take_coverage(const SheetView& sheet, const SheetView::Row& row, const Name
         return;
     }
     add(line.named.coverage);
+    statements.other_k = line.named.other_k;
     for (std::size_t i = std::min(line.cell, line.from); i < row.size(); ++i) {
         const std::string held = i == line.cell ? line.named.assigned : sheet.words(*row[i]);
         if ((i == line.cell || sheet.value(*row[i]).kind == CellKind::text) && coverage_in(held).says_any()) {

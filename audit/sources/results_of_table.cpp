@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "audit/claims.h"
@@ -16,6 +17,7 @@
 #include "audit/sources/result_lines.h"
 #include "audit/sources/table_sums.h"
 #include "audit/sources/table_units.h"
+#include "text/numbers.h"
 #include "text/visible_text.h"
 
 namespace gumcert::audit {
@@ -46,6 +48,7 @@ public:
             }
         }
         settle_parts_of_value(of_contributions);
+        settle_k_of_product();
         const bool has_no_units = std::all_of(table_.units.begin(), table_.units.end(), [](const RowUnits& units) {
             return units.stated.empty() && units.u.empty() && units.contribution.empty() && units.sensitivity.empty();
         });
@@ -72,6 +75,28 @@ public:
     }
 
 private:
+    /// Of "U = k·u_c = 2.65·2" either number may be k: the other one is u_c of the rows.
+    void settle_k_of_product() {
+        std::string& coverage = table_.statements.coverage;
+        constexpr std::string_view k_begin = "k = ";
+        const auto U = table_.statements.numbers.find(Statement::U);
+        const std::string other = std::exchange(table_.statements.other_k, {});
+        if (other.empty() || table_.product || table_.budget.rows.empty() || !coverage.starts_with(k_begin) ||
+            U == table_.statements.numbers.end()) {
+            return;
+        }
+        const std::size_t end = coverage.find_first_not_of("0123456789.,", k_begin.size());
+        const std::string k = coverage.substr(k_begin.size(), end - k_begin.size());
+        const std::optional<Interval> sum = table_.sums().sum_above(U->second);
+        const auto is_u_c = [&sum](const std::string& text) {
+            const std::optional<LeadingNumber> number = read_leading_number(text, "", Percent::unit);
+            return number && as_rounded(number->number, 1.0).meets(*sum);
+        };
+        if (sum && is_u_c(k) && !is_u_c(other)) {
+            coverage.replace(k_begin.size(), k.size(), other);
+        }
+    }
+
     /// Rows that are parts of the value, "w (%)", make up its relative u_c and U: those are what the rows are held against, whatever
     /// stands beside them in the unit of the value.
     void settle_parts_of_value(const std::string& of_contributions) {
