@@ -72,6 +72,7 @@ public:
                 row.source = certificate_in(row.comment);
             }
         }
+        take_conversions();
     }
 
 private:
@@ -94,6 +95,32 @@ private:
         };
         if (sum && is_u_c(k) && !is_u_c(other)) {
             coverage.replace(k_begin.size(), k.size(), other);
+        }
+    }
+
+    /// Rows in mm, µm and nm, without coefficients, were converted before they were added where what is stated follows from them in
+    /// one unit.
+    void take_conversions() {
+        std::vector<AuditedRow>& rows = table_.budget.rows;
+        const bool is_stated = table_.budget.claims.u_c || table_.budget.claims.U;
+        std::vector<double> factors;
+        for (const AuditedRow& row : rows) {
+            const std::optional<double> factor = factor_between(row.unit, table_.budget.unit);
+            if (!is_stated || table_.have_coefficients || row.contribution || row.unit.empty() || !factor) {
+                return;
+            }
+            factors.push_back(*factor);
+        }
+        if (std::all_of(factors.begin(), factors.end(), [](double factor) { return factor == 1.0; })) {
+            return;
+        }
+        const std::vector<AuditedRow> as_they_stand = rows;
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            rows[i].sensitivity = exact_number(factors[i], rows[i].place);
+            complete_row(rows[i]);
+        }
+        if (!table_.follows_from_rows()) {
+            rows = as_they_stand;
         }
     }
 
