@@ -574,6 +574,9 @@ private:
             return;
         }
         if (is_result || (is_sum && (is_distinct || (is_stated && *without)))) {
+            if (is_stated && !is_distinct && has_one_digit(*amount)) {
+                tell_taken(last, "u_c");  // one digit may be u of one more row as well
+            }
             take_last_row(result);
             return;
         }
