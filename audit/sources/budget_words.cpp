@@ -496,6 +496,8 @@ constexpr std::array k_statement_words = {
     Word{U"equation", Statement::equation},
     Word{U"model", Statement::equation},
     Word{U"measurementmodel", Statement::equation},
+    Word{U"modelequation", Statement::equation},
+    Word{U"measurementequation", Statement::equation},
     Word{U"modell", Statement::equation},
     Word{U"modellgleichung", Statement::equation},
     Word{U"incertidumbretipicacombinada", Statement::u_c},
@@ -1464,6 +1466,14 @@ std::optional<NamedStatement> statement_named(std::string_view name, bool may_ha
 }  // namespace
 
 std::optional<NamedStatement> named_statement(std::string_view name) {
+    // "Model: y = m/V" in one cell. A model of an instrument has no sign of equality.
+    if (const std::size_t colon = name.find(':'); colon != std::string_view::npos) {
+        const std::string_view behind = trimmed(name.substr(colon + 1));
+        const std::optional<NamedStatement> whole = statement_named(trimmed(name.substr(0, colon)), true);
+        if (whole && whole->statement == Statement::equation && behind.find('=') != std::string_view::npos) {
+            return NamedStatement{.statement = Statement::equation, .assigned = std::string(behind)};
+        }
+    }
     return statement_named(name, true);
 }
 
