@@ -587,7 +587,11 @@ private:
         const bool has_u_c = table_.statements.numbers.contains(Statement::u_c);
         const bool looks_like_result =
             is_distinct && last.estimate && !has_u_c && !has_result_line_ && !(is_stated && *without);
-        if (is_sum || looks_like_result) {
+        // A volume is no result that is stated as a concentration.
+        const auto value = table_.statements.numbers.find(Statement::value);
+        const bool is_of_other_kind = value != table_.statements.numbers.end() && last.estimate &&
+                                      !factor_between(table_.units.back().estimate, table_.unit_of(value->second));
+        if (!is_of_other_kind && (is_sum || looks_like_result)) {
             ask_for_row(last);
         }
     }

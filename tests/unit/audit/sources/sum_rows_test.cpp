@@ -762,6 +762,17 @@ TEST(Units, KeepTheirDotsBehindANumber) {
     EXPECT_NE(first_of(planted, "S01"), nullptr);
 }
 
+/// The last factor of a product is in another unit than the result that is stated, whatever its u is the root of.
+TEST(SumRows, AskOfNoRowOfAnotherKindThanTheValue) {
+    const AuditReport report = audit_of_sums(
+        "Quantity,Value,Unit,Standard uncertainty\nTitrant,0.1000,mol/L,0.0002\nVolume used,20.00,mL,0.02\n"
+        "Aliquot,10.00,mL,0.03\nResult,0.2000,mol/L,\nCombined standard uncertainty,,mol/L,0.000748\n"
+        "Expanded uncertainty (k = 2),,mol/L,0.0015\n");
+    EXPECT_FALSE(leaves_unread(report, "may be the result"));
+    EXPECT_TRUE(leaves_unread(report, "c = y/x is taken for each"));
+    EXPECT_EQ(first_of(report, "K01"), nullptr);
+}
+
 /// A last row of one digit is u_c of the rows above it within that digit, and may be a row as well: what it is taken for is said.
 TEST(SumRows, SayWhatALastRowOfOneDigitIsTakenFor) {
     const auto with = [](const std::string& last) {
