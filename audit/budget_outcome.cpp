@@ -468,11 +468,15 @@ OutcomeIntervals outcome_intervals(const AuditedBudget& budget, const CoverageRu
         const double c = std::abs(row.used_sensitivity);
         Interval range{std::max(0.0, c - row.sensitivity_half_step) * std::max(0.0, row.used_u - row.u_half_step),
                        (c + row.sensitivity_half_step) * (row.used_u + row.u_half_step)};
-        // The table may have added up its column of contributions, which it rounded by itself.
+        // The column of contributions may be what was added up, which was rounded by itself. It is what |c| u gives however few digits
+        // a conversion of 0.001 ns/ps has; else |c| u was taken as it is printed.
         if (row.contribution) {
             const Interval printed{std::max(0.0, std::abs(row.contribution->value) - row.contribution->half_step),
                                    std::abs(row.contribution->value) + row.contribution->half_step};
-            range = {std::min(range.low, printed.low), std::max(range.high, printed.high)};
+            const double product = c * row.used_u;
+            const bool agree = range.meets(printed);
+            range = agree ? Interval{std::min(product, printed.low), std::max(product, printed.high)}
+                          : Interval{std::min(range.low, printed.low), std::max(range.high, printed.high)};
         }
         return range;
     };

@@ -232,9 +232,14 @@ ClaimCheck explained_claims(const AuditedBudget& budget) {
         return !claims.U || before_rounding_up(*claims.U).meets(allowed_U(budget, k, u_c));
     };
     const auto gives_k = [&](const Interval& k) { return !claims.k || wide(k).meets(interval_of_k(claims)); };
-    // U may have been computed with the k that is printed, or before k was rounded.
+    // U may have been computed with the k that is printed, or before that k was rounded, whatever else ν_eff leaves open.
     const auto with_claimed_k = [&](const Interval& k) {
-        return claims.k ? hull(k, {claims.k->value, claims.k->value}) : k;
+        if (!claims.k) {
+            return k;
+        }
+        const Interval printed = interval_of_k(claims), of_rule = wide(k);
+        const Interval both{std::max(printed.low, of_rule.low), std::min(printed.high, of_rule.high)};
+        return hull(both.low <= both.high ? both : k, {claims.k->value, claims.k->value});
     };
     const auto take = [&](const CoverageRule& rule, const Interval& k) {
         check.coverage = rule;
@@ -294,8 +299,8 @@ ClaimCheck explained_claims(const AuditedBudget& budget) {
         }
         for (const CoverageRule& rule : rules) {
             const Interval k = allowed_k(budget, rule, allowed.nu_eff);
-            if (gives_U(k) && (!with_k || gives_k(k))) {
-                take(rule, k);
+            if (with_k ? gives_k(k) && gives_U(with_claimed_k(k)) : gives_U(k)) {
+                take(rule, with_k ? with_claimed_k(k) : k);
                 return check;
             }
         }

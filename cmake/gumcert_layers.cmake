@@ -231,6 +231,10 @@ set(GUMCERT_ONLY_IN gum/quantity/dense_factors.h Eigen/Eigenvalues Eigen/QR Eige
 # Headers of ours that only their own layer may include. They are not installed, and the line above leaves them alone.
 set(GUMCERT_PRIVATE_HEADERS archive/store/postgresql_connection.h archive/store/postgresql_schema.h
                             archive/store/sqlite_schema.h archive/store/sqlite_statement.h
+                            audit/sources/correlation_lines.h
+                            audit/sources/head_lines.h audit/sources/open_sums.h audit/sources/product_of_table.h
+                            audit/sources/results_of_table.h audit/sources/row_lines.h
+                            audit/sources/table_reader.h audit/sources/table_so_far.h
                             engine/rotary_table/start/candidate_places.h engine/rotary_table/start/closed_solution.h
                             engine/rotary_table/start/fit_limits.h
                             engine/rotary_table/start/gross_errors.h engine/rotary_table/start/interrupted_beams.h

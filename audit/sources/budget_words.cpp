@@ -496,6 +496,8 @@ constexpr std::array k_statement_words = {
     Word{U"equation", Statement::equation},
     Word{U"model", Statement::equation},
     Word{U"measurementmodel", Statement::equation},
+    Word{U"modelequation", Statement::equation},
+    Word{U"measurementequation", Statement::equation},
     Word{U"modell", Statement::equation},
     Word{U"modellgleichung", Statement::equation},
     Word{U"incertidumbretipicacombinada", Statement::u_c},
@@ -1236,8 +1238,9 @@ constexpr std::string_view k_signs_of_equality[] = {"=", "≅", "≈", "≃"};
 
 /// What k is in a product of numbers.
 struct FactorInNumbers {
-    std::string_view k;    ///< empty where none is known
-    bool is_open = false;  ///< one of the numbers is k, and nothing says which
+    std::string_view k;           ///< empty where none is known
+    std::string_view other = {};  ///< what may be k as well, and the first one u
+    bool is_open = false;         ///< one of the numbers is k, and nothing says which
 };
 
 /// 2 of "k · u(y) = 2 × 37.7 mg", as EA-4/02 writes U; of "k·u_c = 0.0651·2", too, where u is no k. Nothing where no product of
@@ -1271,14 +1274,18 @@ FactorInNumbers factor_in_numbers(std::string_view product) {
         const bool has_unit =
             !behind.empty() && std::none_of(std::begin(k_signs_of_equality), std::end(k_signs_of_equality),
                                             [behind](std::string_view sign) { return behind.starts_with(sign); });
-        if (may_be_k(one) &&
-            (has_unit || !may_be_k(other) || one == other || (is_usual_k(one) && !is_usual_k(other)))) {
+        if (may_be_k(one) && (has_unit || !may_be_k(other) || one == other)) {
             return {.k = first};
         }
-        if (!has_unit && may_be_k(other) && (!may_be_k(one) || (is_usual_k(other) && !is_usual_k(one)))) {
+        if (has_unit || !may_be_k(other)) {
+            return {.k = {}, .is_open = true};
+        }
+        // Both may be k: the usual one before the other, else the first as in "k·u"; u_c of the rows tells whether it is.
+        if (!may_be_k(one)) {
             return {.k = second};
         }
-        return {.k = {}, .is_open = true};
+        const bool is_second = is_usual_k(other) && !is_usual_k(one);
+        return {.k = is_second ? second : first, .other = is_second ? first : second};
     }
     return {};
 }
@@ -1430,6 +1437,7 @@ std::optional<NamedStatement> statement_named(std::string_view name, bool may_ha
                 const std::string in_product(k.is_open && said.empty() ? trimmed(product) : std::string_view());
                 return NamedStatement{.statement = Statement::U,
                                       .coverage = k.k.empty() ? said + in_product : "k = " + std::string(k.k) + said,
+                                      .other_k = std::string(k.other),
                                       .assigned = std::string(number_at_end(product))};
             }
         }
@@ -1458,6 +1466,14 @@ std::optional<NamedStatement> statement_named(std::string_view name, bool may_ha
 }  // namespace
 
 std::optional<NamedStatement> named_statement(std::string_view name) {
+    // "Model: y = m/V" in one cell. A model of an instrument has no sign of equality.
+    if (const std::size_t colon = name.find(':'); colon != std::string_view::npos) {
+        const std::string_view behind = trimmed(name.substr(colon + 1));
+        const std::optional<NamedStatement> whole = statement_named(trimmed(name.substr(0, colon)), true);
+        if (whole && whole->statement == Statement::equation && behind.find('=') != std::string_view::npos) {
+            return NamedStatement{.statement = Statement::equation, .assigned = std::string(behind)};
+        }
+    }
     return statement_named(name, true);
 }
 

@@ -94,6 +94,7 @@ struct NamedStatement {
         false;  ///< "Relative expanded uncertainty": a part of the value, and none of a number in another unit
     bool says_of_what = false;  ///< a relative one, beside coverage: "(of full scale)"
     std::string coverage = {};  ///< "(k = 2.08, p = 95 %)" of "Expanded uncertainty (k = 2.08, p = 95 %)"
+    std::string other_k = {};   ///< of "k·u_c = 2.65·2": what may be k as well as the number in `coverage`
     std::string assigned = {};  ///< "0.096 mg" of "U = 0.096 mg": what stands behind the name in its own cell
     /// Of "U / mm" alone, which may be another quantity in another unit (a circumference; revolutions of "U / min"): its unit.
     std::string unit_of_U = {};

@@ -21,6 +21,7 @@ constexpr double k_arithmetic = 2e-4;  // relative: values that somebody rounded
 struct SizeInSi {
     double logarithm = 0.0;
     gum::Dimension dimension;
+    double of_unit = 1.0;  ///< that of one of its unit
 };
 
 std::optional<SizeInSi> size_in_si(const Factor& factor) {
@@ -30,7 +31,8 @@ std::optional<SizeInSi> size_in_si(const Factor& factor) {
     if (!(size > 0.0) || !std::isfinite(size) || unit->is_celsius_temperature()) {
         return std::nullopt;
     }
-    return SizeInSi{.logarithm = std::log(size), .dimension = unit->dimension()};
+    return SizeInSi{
+        .logarithm = std::log(size), .dimension = unit->dimension(), .of_unit = unit->difference_to_si(1.0)};
 }
 
 /// Finds the exponents that fit: 1 and −1, and of rows without dimension 2 and ½ as well.
@@ -101,7 +103,8 @@ std::optional<ProductOfRows> product_of_rows(const std::vector<Factor>& rows, co
         }
         for (const SizeInSi& other : sizes) {
             const bool is_of_one_kind = other.dimension == size->dimension;
-            differ = differ || !is_of_one_kind;
+            // A content in mg/g beside a factor is no sum, for what is added has one unit.
+            differ = differ || !is_of_one_kind || (size->dimension.is_one() && other.of_unit != size->of_unit);
             has_equal = has_equal || (is_of_one_kind && std::abs(other.logarithm - size->logarithm) <= k_arithmetic);
         }
         sizes.push_back(*size);

@@ -25,7 +25,7 @@ struct ProductOfRows {
 
 /// The exponents with which the values of rows multiply to that of the result: m P/V of 100.28 mg, 0.9999 and 100 mL is 1002.7 mg/L. Units
 /// and numbers have to fit together in SI. Nothing where no choice of 1 and −1 fits, all rows have one dimension (they may be those of a
-/// sum), a unit is not known, or a value is 0 or one on a scale with another zero, as 20 °C.
+/// sum; mg/g beside 1 is none), a unit is not known, or a value is 0 or one on a scale with another zero, as 20 °C.
 [[nodiscard]] std::optional<ProductOfRows> product_of_rows(const std::vector<Factor>& rows, const Factor& result);
 
 }  // namespace gumcert::audit

@@ -188,6 +188,7 @@ void take_coverage(const SheetView& sheet, const SheetView::Row& row, const Name
         return;
     }
     add(line.named.coverage);
+    statements.other_k = line.named.other_k;
     for (std::size_t i = std::min(line.cell, line.from); i < row.size(); ++i) {
         const std::string held = i == line.cell ? line.named.assigned : sheet.words(*row[i]);
         if ((i == line.cell || sheet.value(*row[i]).kind == CellKind::text) && coverage_in(held).says_any()) {
@@ -497,7 +498,7 @@ std::optional<NamedLine> name_of_line(const SheetView& sheet, const SheetView::R
                              [&sheet](const Cell* cell) { return sheet.number_with_unit(*cell).has_value(); });
             if (has_number && !is_alone && repeats_number(sheet, row, i, named->assigned)) {
                 named->assigned.clear();
-            } else if (!has_number || !is_alone) {
+            } else if (named->statement != Statement::equation && (!has_number || !is_alone)) {
                 named.reset();
             }
         }
@@ -583,6 +584,10 @@ namespace {
 
 /// What a line states in words.
 void take_words(const SheetView& sheet, const SheetView::Row& row, const NamedLine& line, Statements& statements) {
+    if (!line.named.assigned.empty()) {
+        statements.words.emplace(line.named.statement, line.named.assigned);
+        return;
+    }
     for (std::size_t i = line.cell + 1; i < row.size(); ++i) {
         if (std::string held = sheet.words(*row[i]); !held.empty()) {
             statements.words.emplace(line.named.statement, std::move(held));

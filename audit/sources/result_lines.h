@@ -32,6 +32,7 @@ struct Statements {
     std::string unit_of_parts;  ///< "%": that of all rows, which are parts of the value; "" where they are not
     std::string coverage;       ///< what stands beside U of it: "k = 2, 95 %"
     std::string coverage_place;
+    std::string other_k;  ///< of "U = k·u_c = 2.65·2": what may be k as well as the number that `coverage` begins with
 };
 
 /// Whether a statement is a number with the dimension of the result.

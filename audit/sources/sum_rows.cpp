@@ -574,6 +574,9 @@ private:
             return;
         }
         if (is_result || (is_sum && (is_distinct || (is_stated && *without)))) {
+            if (is_stated && !is_distinct && has_one_digit(*amount)) {
+                tell_taken(last, "u_c");  // one digit may be u of one more row as well
+            }
             take_last_row(result);
             return;
         }
@@ -584,7 +587,11 @@ private:
         const bool has_u_c = table_.statements.numbers.contains(Statement::u_c);
         const bool looks_like_result =
             is_distinct && last.estimate && !has_u_c && !has_result_line_ && !(is_stated && *without);
-        if (is_sum || looks_like_result) {
+        // A volume is no result that is stated as a concentration.
+        const auto value = table_.statements.numbers.find(Statement::value);
+        const bool is_of_other_kind = value != table_.statements.numbers.end() && last.estimate &&
+                                      !factor_between(table_.units.back().estimate, table_.unit_of(value->second));
+        if (!is_of_other_kind && (is_sum || looks_like_result)) {
             ask_for_row(last);
         }
     }

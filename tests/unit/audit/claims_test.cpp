@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstddef>
+#include <string>
 
 #include "audit/budget_outcome.h"
 #include "gum/coverage.h"
@@ -166,6 +168,37 @@ TEST(Claims, DoNotExplainACutUByAnotherFactor) {
     budget.claims.k = printed("2.16");
     budget.claims.U = printed("1.0");  // 1.08 cut
     EXPECT_TRUE(check_claims(budget).U_outside);
+}
+
+/// What is printed beside a number leaves less open than where it comes from: a k with two decimals than ν_eff of the rows, a contribution
+/// than a coefficient of one digit.
+TEST(Claims, FollowWhatIsPrintedBesideThem) {
+    AuditedBudget budget = budget_of({row("a", 0.302), row("b", 0.430, 1.0, 5.0)});
+    budget.rows[1].u_half_step = 0.02;
+    ASSERT_NEAR(evaluate(budget).nu_eff, 11.2, 0.1);
+    budget.claims.u_c = printed("0.525");
+    budget.claims.k = printed("2.25");
+    budget.claims.U = printed("1.2");
+    EXPECT_FALSE(check_claims(budget).U_outside);
+    budget.claims.U = printed("1.1");
+    EXPECT_TRUE(check_claims(budget).U_outside) << "1.18 cut: the k of 16 degrees of freedom is not the printed one";
+
+    AuditedBudget converted = budget_of({row("trigger level", 2.89), row("delay", 57.7)});
+    const double c[] = {0.02, 0.001};
+    for (std::size_t i = 0; i < 2; ++i) {
+        AuditedRow& one = converted.rows[i];
+        one.used_sensitivity = c[i];
+        one.sensitivity_half_step = 0.5 * (i == 0 ? 0.01 : 0.001);
+        one.u_half_step = i == 0 ? 0.005 : 0.05;
+    }
+    converted.claims.u_c = printed("0.0582");  // one of two contributions of 0.0577 is left out
+    EXPECT_FALSE(check_u_c(converted).u_c_outside) << "c of one digit leaves that open";
+    for (AuditedRow& one : converted.rows) {
+        one.contribution = printed("0.0577");
+    }
+    EXPECT_TRUE(check_u_c(converted).u_c_outside);
+    converted.claims.u_c = printed("0.0817");
+    EXPECT_FALSE(check_u_c(converted).u_c_outside);
 }
 
 TEST(Claims, BelieveANuThatWasCut) {

@@ -454,6 +454,36 @@ TEST(LayoutsOfTables, KOfAProductIsNoU) {
     EXPECT_TRUE(finds(with("U = k·u_c = 2·0.0651 mV = 0.26 mV"), "K01"));
 }
 
+/// Where either number of a product may be k, the one is that beside which u_c of the rows stands, whether a line states u_c or not.
+TEST(LayoutsOfTables, KOfAProductIsTheOneBesideUcOfTheRows) {
+    const auto with = [](double scale, const std::string& product, const std::string& u_c) {
+        std::string rows = "Quantity;Unit;Standard uncertainty;c_i;Contribution\n";
+        for (const auto& [name, u] :
+             std::vector<std::pair<std::string, double>>{{"Reference", 1.4}, {"Drift", 1.2}, {"Recovery", 0.76}}) {
+            const std::string number = std::to_string(scale * u).substr(0, 6);
+            rows += name + ";mg/kg;" + number + ";1;" + number + "\n";
+        }
+        return report_on(rows + (u_c.empty() ? "" : "u_c;mg/kg;;;" + u_c + "\n") + "U = k·u_c = " + product + ";;;;\n");
+    };
+    struct Case {
+        double scale;  // u_c of the rows is 1.994 times that
+        const char *product, *u_c;
+        double k;
+    };
+    for (const Case& one :
+         {Case{1.0, "2.65·2.0 = 5.3 mg/kg", "2.0", 2.65}, Case{1.0, "2.0·2.65 = 5.3 mg/kg", "2.0", 2.65},
+          Case{1.329, "2.65·2 = 5.3 mg/kg", "2.65", 2.0}, Case{1.329, "2·2.65 = 5.3 mg/kg", "2.65", 2.0},
+          Case{1.0, "2.31·1.99 = 4.6 mg/kg", "1.99", 2.31}, Case{1.0, "1.99·2.31 = 4.6 mg/kg", "1.99", 2.31}}) {
+        for (const std::string& u_c : {std::string(one.u_c), std::string()}) {
+            const AuditReport report = with(one.scale, one.product, u_c);
+            ASSERT_EQ(report.results.size(), 1U) << one.product;
+            EXPECT_EQ(report.results[0].claimed.k, one.k) << one.product << " " << u_c;
+            EXPECT_FALSE(finds(report, "K01")) << one.product << " " << u_c;
+        }
+        EXPECT_TRUE(finds(with(1.2 * one.scale, one.product, one.u_c), "K01")) << one.product;
+    }
+}
+
 TEST(LayoutsOfTables, OfPublishedTables) {
     // JCGM 100:2008, table H.1: symbols and what they stand for in the heads.
     const std::string of_gum =

@@ -253,6 +253,29 @@ TEST(ProductOfRows, OfOneDimensionOrInOtherUnitsIsNoSum) {
     }
 }
 
+/// A content in mg/g beside factors is a product of numbers, and no sum of them.
+TEST(ProductOfRows, MayBeOfContentsAndFactors) {
+    const auto with = [](const std::string& last) {
+        return report_of_product(
+            "Quantity,Value,Unit,Standard uncertainty\nContent as received,10.023,mg/g,0.021\n"
+            "Moisture,0.500,1,0.010\nFactor,1.000,1,0.002\n" +
+            last);
+    };
+    for (const char* const sound :
+         {"Result,20.05,mg/g,\nCombined standard uncertainty,,mg/g,0.41\nU (k = 2),,mg/g,0.81\n",
+          "Result,20.05,mg/g,\nU (k = 2),,mg/g,0.81\n", "Result,20.05,mg/g,0.41\nU (k = 2),,mg/g,0.81\n"}) {
+        const AuditReport report = with(sound);
+        EXPECT_EQ(accused_sums(report), "") << sound;
+        EXPECT_TRUE(says_of_product(report, "c = y/x is taken for each")) << sound;
+    }
+    // The moisture is left out.
+    EXPECT_TRUE(finds_in_product(
+        with("Result,20.05,mg/g,\nCombined standard uncertainty,,mg/g,0.058\nU (k = 2),,mg/g,0.12\n"), "K01"));
+    // Numbers of one unit may be those of a sum.
+    EXPECT_FALSE(
+        product_of_rows({{.value = 0.5, .unit = "1"}, {.value = 0.2, .unit = "1"}}, {.value = 0.1, .unit = "1"}));
+}
+
 TEST(ProductOfRows, OfOnesIsTheSameAsASumOfNumbers) {
     const AuditReport ones = report_of_product(
         "Quantity,Value,Unit,Standard uncertainty\nMass,1.000,g,0.010\nVolume,1.000,L,0.020\nResult,1.000,g/L,0.0224\n"

@@ -762,5 +762,28 @@ TEST(Units, KeepTheirDotsBehindANumber) {
     EXPECT_NE(first_of(planted, "S01"), nullptr);
 }
 
+/// The last factor of a product is in another unit than the result that is stated, whatever its u is the root of.
+TEST(SumRows, AskOfNoRowOfAnotherKindThanTheValue) {
+    const AuditReport report = audit_of_sums(
+        "Quantity,Value,Unit,Standard uncertainty\nTitrant,0.1000,mol/L,0.0002\nVolume used,20.00,mL,0.02\n"
+        "Aliquot,10.00,mL,0.03\nResult,0.2000,mol/L,\nCombined standard uncertainty,,mol/L,0.000748\n"
+        "Expanded uncertainty (k = 2),,mol/L,0.0015\n");
+    EXPECT_FALSE(leaves_unread(report, "may be the result"));
+    EXPECT_TRUE(leaves_unread(report, "c = y/x is taken for each"));
+    EXPECT_EQ(first_of(report, "K01"), nullptr);
+}
+
+/// A last row of one digit is u_c of the rows above it within that digit, and may be a row as well: what it is taken for is said.
+TEST(SumRows, SayWhatALastRowOfOneDigitIsTakenFor) {
+    const auto with = [](const std::string& last) {
+        return audit_of_sums(
+            "Quantity,Value,Unit,Standard uncertainty\nIndication,100,V,0.03\nDrift,0,V,0.065\nLast,100,V," + last +
+            "\nCombined standard uncertainty,0.07159,V,\n");
+    };
+    EXPECT_TRUE(leaves_unread(with("0.1"), "\"Last\" is taken for u_c of the rows above it"));
+    EXPECT_FALSE(leaves_unread(with("0.072"), "is taken for"));
+    EXPECT_NE(first_of(with("0.100"), "K01"), nullptr) << "with more digits it is a row that was left out";
+}
+
 }  // namespace
 }  // namespace gumcert::audit

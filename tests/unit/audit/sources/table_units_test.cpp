@@ -702,5 +702,46 @@ INSTANTIATE_TEST_SUITE_P(SoundAndPlanted, UnitsOfTables,
                          testing::Values(Planted::none, Planted::undivided_limit, Planted::certificate_as_u,
                                          Planted::other_verdict, Planted::other_score, Planted::half_U));
 
+/// Rows of several units of one kind, without coefficients: where what is stated follows from them in one unit, they were converted, in
+/// whatever units they stand. Where their numbers were added as they are, S01 is told.
+TEST(UnitsOfTables, OfRowsWithoutCoefficientsAreConvertedWhereTheSumSaysSo) {
+    const auto with = [](const std::vector<std::pair<std::string, std::string>>& rows, const std::string& u_c,
+                         const std::string& U) {
+        std::string table = "Quantity,Unit,Standard uncertainty\n";
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            table += "Block " + std::to_string(i + 1) + "," + rows[i].second + "," + rows[i].first + "\n";
+        }
+        table += u_c.empty() ? "" : "Combined standard uncertainty,mm," + u_c + "\n";
+        return audit(subject_of(workbook::read_csv(table + "Expanded uncertainty (k = 2),mm," + U + "\n", "b.csv", "b"),
+                                "b.csv"),
+                     all_rules());
+    };
+    const auto accused = [](const AuditReport& report) {
+        std::string rules;
+        for (const AuditFinding& finding : report.findings) {
+            rules += finding.rule == "K01" || finding.rule == "S01" ? finding.rule + " " : "";
+        }
+        return rules;
+    };
+    // u = 30, 20 and 8 nm: u_c = 37 nm.
+    const std::vector<std::vector<std::string>> units = {
+        {"mm", "µm", "nm"}, {"0.000030", "0.030", "30"}, {"0.000020", "0.020", "20"}, {"0.0000080", "0.0080", "8.0"}};
+    for (std::size_t a = 0; a < 3; ++a) {
+        for (std::size_t b = 0; b < 3; ++b) {
+            for (std::size_t c = 0; c < 3; ++c) {
+                const std::vector<std::pair<std::string, std::string>> rows = {
+                    {units[1][a], units[0][a]}, {units[2][b], units[0][b]}, {units[3][c], units[0][c]}};
+                EXPECT_EQ(accused(with(rows, "0.000037", "0.000074")), "") << a << b << c;
+                EXPECT_EQ(accused(with(rows, "", "0.000074")), "") << a << b << c;
+                EXPECT_NE(accused(with(rows, "0.000022", "0.000043")), "") << "the first row left out: " << a << b << c;
+            }
+        }
+    }
+    const std::string as_they_stand =
+        accused(with({{"0.000030", "mm"}, {"0.020", "µm"}, {"0.000008", "mm"}}, "0.0200", "0.0400"));
+    EXPECT_NE(as_they_stand.find("S01"), std::string::npos);
+    EXPECT_EQ(as_they_stand.find("K01"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace gumcert::audit

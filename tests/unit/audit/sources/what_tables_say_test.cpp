@@ -308,5 +308,28 @@ TEST(WhatTablesSay, BudgetsOfOneSheetHaveNamesOfTheirOwn) {
     }
 }
 
+/// An equation stands behind its name, in a cell of its own or in that of the name.
+TEST(WhatTablesSay, OfTheirModelInOneCellOrTwo) {
+    const auto with = [](const std::string& line, const std::string& c, const std::string& part) {
+        const AuditReport report = audit(
+            subject_of(
+                workbook::read_csv(line +
+                                       "\nQuantity,Value,Unit,Standard uncertainty,Sensitivity coefficient,"
+                                       "Contribution\nm,100.00,g,0.0030,0.02,0.00006\nV,50.00,mL,0.010," +
+                                       c + "," + part + "\ny,2.0000,g/mL,,," + part + "\nU (k = 2),,g/mL,,,0.0" + "\n",
+                                   "b.csv", "b"),
+                "b.csv"),
+            all_rules());
+        return std::any_of(report.findings.begin(), report.findings.end(),
+                           [](const AuditFinding& finding) { return finding.rule == "S02" || finding.rule == "S03"; });
+    };
+    for (const char* const line :
+         {"Equation,y = m/V", "Model: y = m/V", "Model equation: y = m/V", "Measurement equation,y = m/V"}) {
+        EXPECT_TRUE(with(line, "-0.4", "0.0040")) << line;
+        EXPECT_FALSE(with(line, "-0.04", "0.0004")) << line;
+    }
+    EXPECT_FALSE(with("Model: XY 200", "-0.4", "0.0040")) << "of an instrument";
+}
+
 }  // namespace
 }  // namespace gumcert::audit
