@@ -1,11 +1,13 @@
 #include "reports/reported_results.h"
 
 #include "certificate/point_names.h"
+#include "gum/quantity/unit.h"
 #include "reports/point_headings.h"
 #include "reports/record/stated_values.h"
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <map>
 #include <set>
@@ -109,6 +111,32 @@ std::vector<ReportedQuantity> quantities_of(const std::vector<Result>& results,
     return all;
 }
 
+/// Whether the mean of the trials that is stated is another value than that of the model at the estimates, as printed and by
+/// more than a tenth of u.
+bool is_beside_model(const Result& result) {
+    constexpr double k_least_shift = 0.1;
+    const ReportedResult& reported = result.reported;
+    return reported.method == "monte_carlo" && reported.u &&
+           std::abs(reported.value - result.value) > k_least_shift * *reported.u &&
+           result.printed.value != reported.printed.value;
+}
+
+/// That the stated values are means of trials, and what the model gives at the estimates; nothing where that is the same.
+void add_model_values(std::vector<Text>& sentences, const std::vector<Result>& results,
+                      const std::vector<ReportedQuantity>& named, const Wording& words) {
+    std::vector<Text> values;
+    for (std::size_t i = 0; i < results.size(); ++i) {
+        if (is_beside_model(results[i])) {
+            const std::string unit = gum::unit_for_people(results[i].printed.unit);
+            values.push_back(named[i].name + Text(": ") + words.number(results[i].printed.value) +
+                             (unit.empty() ? Text() : Text("\u00A0" + unit)));
+        }
+    }
+    if (!values.empty()) {
+        sentences.push_back(words.fill("mean_of_trials", {{"values", names_of(values, words)}}));
+    }
+}
+
 Text interval_or(const std::string& U, const ReportedResult& reported, const Wording& words) {
     return reported.printed_low.empty()
                ? Text(U)
@@ -118,18 +146,24 @@ Text interval_or(const std::string& U, const ReportedResult& reported, const Wor
 }  // namespace
 
 std::vector<Text> reasons_for_monte_carlo(const std::vector<Result>& results, const Wording& words) {
-    return sentences_of(quantities_of(results, nullptr, words), true, words);
+    const std::vector<ReportedQuantity> all = quantities_of(results, nullptr, words);
+    std::vector<Text> sentences = sentences_of(all, true, words);
+    add_model_values(sentences, results, all, words);
+    return sentences;
 }
 
 std::vector<Text> reasons_for_monte_carlo(const EvaluationRecord& record, const Wording& words) {
     std::vector<ReportedQuantity> all =
         quantities_of(record.results, record.certificate ? &*record.certificate : nullptr, words);
+    const std::vector<ReportedQuantity> of_results = all;
     if (record.rotary) {
         const std::vector<ReportedQuantity> of_table = quantities_of(*record.rotary, words);
         all.insert(all.end(), of_table.begin(), of_table.end());
     }
     const bool law_is_shown = !record.certificate || record.certificate->data.annexes != "none";
-    return sentences_of(all, law_is_shown, words);
+    std::vector<Text> sentences = sentences_of(all, law_is_shown, words);
+    add_model_values(sentences, record.results, of_results, words);
+    return sentences;
 }
 
 Text stated_uncertainty(const ReportedResult& reported, const Wording& words) {

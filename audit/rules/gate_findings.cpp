@@ -82,6 +82,7 @@ constexpr std::array k_gate_findings{
     GateFinding{"R06", "R06"},
     GateFinding{"K03", "K03"},
     GateFinding{"S05", "S05"},
+    GateFinding{"S18", "S18"},
     GateFinding{"M01", "S01"},
     GateFinding{"M02", "R03"},
     // what the data say of the uncertainties that were stated for them

@@ -706,16 +706,30 @@ void BudgetModel::evaluate_trials(const Eigen::Ref<const Eigen::MatrixXd>& x, Ei
     if (one_to_one_ && system_) {
         system_->evaluate_trials(x, y, start_);
     } else {
-        Eigen::MatrixXd z = Eigen::MatrixXd::Zero(x.rows(), symbol_count_);
-        for (std::size_t i = 0; i < quantities_.size(); ++i) {
-            z.col(static_cast<Eigen::Index>(quantities_[i].symbol)) += x.col(static_cast<Eigen::Index>(i));
-        }
+        const Eigen::MatrixXd z = symbols_of_trials(x);
         if (system_) {
             system_->evaluate_trials(z, y, start_);
         } else {
             y = z(Eigen::all, results_);
         }
     }
+    turn(y);
+}
+
+void BudgetModel::evaluate_as_chosen(const Eigen::Ref<const Eigen::MatrixXd>& x, Eigen::Ref<Eigen::MatrixXd> y) const {
+    system_->evaluate_as_chosen(symbols(input_estimates(*this)), symbols_of_trials(x), y, start_);
+    turn(y);
+}
+
+Eigen::MatrixXd BudgetModel::symbols_of_trials(const Eigen::Ref<const Eigen::MatrixXd>& x) const {
+    Eigen::MatrixXd z = Eigen::MatrixXd::Zero(x.rows(), symbol_count_);
+    for (std::size_t i = 0; i < quantities_.size(); ++i) {
+        z.col(static_cast<Eigen::Index>(quantities_[i].symbol)) += x.col(static_cast<Eigen::Index>(i));
+    }
+    return z;
+}
+
+void BudgetModel::turn(Eigen::Ref<Eigen::MatrixXd> y) const {
     for (const auto& [output, estimate] : turned_) {
         y.col(output) = y.col(output).unaryExpr([to = estimate](double angle) { return nearest_turn(angle, to); });
     }

@@ -49,6 +49,11 @@ public:
     [[nodiscard]] Eigen::MatrixXd jacobian(const Eigen::VectorXd& x) const override;
     [[nodiscard]] std::vector<Eigen::MatrixXd> hessians(const Eigen::VectorXd& x) const override;
     void evaluate_trials(const Eigen::Ref<const Eigen::MatrixXd>& x, Eigen::Ref<Eigen::MatrixXd> y) const override;
+    /// Whether max, min or abs stand in the equations.
+    [[nodiscard]] bool has_choices() const { return system_ && system_->has_choices(); }
+    /// Trials with every max, min and abs as it is at the estimates (EquationSystem::evaluate_as_chosen); of a model that
+    /// has them. Called from one thread.
+    void evaluate_as_chosen(const Eigen::Ref<const Eigen::MatrixXd>& x, Eigen::Ref<Eigen::MatrixXd> y) const;
     /// This model with an angle that leaps by full turns, as atan2 does at ±180°, taken as near to its estimate as turns bring it.
     /// \param output  in rad
     /// \param values  estimates of all outputs
@@ -58,6 +63,8 @@ public:
 
 private:
     [[nodiscard]] Eigen::VectorXd symbols(const Eigen::VectorXd& x) const;
+    [[nodiscard]] Eigen::MatrixXd symbols_of_trials(const Eigen::Ref<const Eigen::MatrixXd>& x) const;
+    void turn(Eigen::Ref<Eigen::MatrixXd> y) const;
     /// Derivative of the outputs by the symbols.
     [[nodiscard]] Eigen::MatrixXd by_symbol(const Eigen::VectorXd& x) const;
 

@@ -10,6 +10,7 @@
 #include "gum/budget/evaluation_choice.h"
 #include "gum/budget/fit_scatter.h"
 #include "gum/budget/joint_region.h"
+#include "gum/budget/other_choice.h"
 #include "gum/budget/zero_uncertainty.h"
 #include "gum/monte_carlo/validation_in_unit.h"
 #include "gum/quantity/progress.h"
@@ -328,6 +329,12 @@ void report(const Budget& budget, const std::optional<EquationSystem>& system, c
         }
     } else if (needed) {
         run_monte_carlo_unasked(budget, system, evidence, where, threads, progress, point, result);
+    }
+    if (point.monte_carlo) {
+        const std::vector<double> shares = shares_of_other_choices(point, point.monte_carlo->seed);
+        for (std::size_t i = 0; i < shares.size(); ++i) {
+            point.outputs[i].other_choice = shares[i];
+        }
     }
     for (std::size_t i = 0; i < point.outputs.size(); ++i) {
         BudgetOutputResult& output = point.outputs[i];

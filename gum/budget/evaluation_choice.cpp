@@ -9,6 +9,7 @@
 #include <set>
 #include <utility>
 
+#include "gum/budget/other_choice.h"
 #include "gum/linearity_check.h"
 #include "gum/monte_carlo/trial_distribution.h"
 #include "gum/monte_carlo/validation_in_unit.h"
@@ -376,6 +377,9 @@ void note_reported(const Budget& budget, BudgetResult& result) {
                      .action = "Leave out \"coverage\": \"law_of_propagation\": then Monte Carlo is reported.",
                      .severity = Severity::warning});
             }
+        }
+        if (auto message = other_choice_message(budget, result, output)) {
+            result.notes.push_back(std::move(*message));
         }
         // Where the law is reported its U stands, and that the trials have none speaks of the trials alone.
         const Places beside = places_of(

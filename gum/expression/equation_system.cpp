@@ -640,4 +640,43 @@ void EquationSystem::evaluate_trials(const Eigen::Ref<const Eigen::MatrixXd>& x,
     }
 }
 
+bool EquationSystem::has_choices() const {
+    return compiled_->tape.has_choices();
+}
+
+void EquationSystem::evaluate_as_chosen(const Eigen::VectorXd& estimates, const Eigen::Ref<const Eigen::MatrixXd>& x,
+                                        Eigen::Ref<Eigen::MatrixXd> y, const Eigen::VectorXd& start) const {
+    assert(x.rows() == y.rows() && y.cols() == static_cast<Eigen::Index>(output_count()));
+    compiled_->check_size(x.cols());
+    const Tape& tape = compiled_->tape;
+    Workspace& workspace = workspace_of_thread();
+    compiled_->run(workspace, estimates, false, false);
+    std::vector<bool> varying(tape.leaf_count(), true);  // unknowns do
+    for (Eigen::Index i = 0; i < x.cols(); ++i) {
+        varying[static_cast<std::size_t>(i)] = (x.col(i).array() != x(0, i)).any();
+    }
+    const std::vector<Choice> chosen = tape.choices(workspace.tape, varying);
+    const std::size_t implicit = tape.residual_step_count();
+    const double* const first = start.size() == 0 ? compiled_->start.data() : start.data();
+    for (Eigen::Index trial = 0; trial < x.rows(); ++trial) {
+        for (Eigen::Index i = 0; i < x.cols(); ++i) {
+            workspace.tape.value[static_cast<std::size_t>(i)] = x(trial, i);
+        }
+        bool same = true;
+        if (compiled_->unknowns() != 0) {
+            same = compiled_->search(workspace, first) == Search::converged;
+            tape.values(workspace.tape, 0, tape.step_count());
+            const std::vector<Choice> here = tape.choices(workspace.tape, varying);
+            same =
+                same && std::equal(here.begin(), here.begin() + static_cast<std::ptrdiff_t>(implicit), chosen.begin());
+        }
+        tape.values_as_chosen(workspace.tape, chosen);
+        for (Eigen::Index i = 0; i < y.cols(); ++i) {
+            const std::int32_t root = tape.roots()[tape.residual_count() + static_cast<std::size_t>(i)];
+            y(trial, i) =
+                same ? workspace.tape.value[static_cast<std::size_t>(root)] : std::numeric_limits<double>::quiet_NaN();
+        }
+    }
+}
+
 }  // namespace gumcert::gum

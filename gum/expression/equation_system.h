@@ -133,6 +133,16 @@ public:
     void evaluate_trials(const Eigen::Ref<const Eigen::MatrixXd>& x, Eigen::Ref<Eigen::MatrixXd> y,
                          const Eigen::VectorXd& start = {}) const;
 
+    /// True when the equations have a max, min or abs.
+    [[nodiscard]] bool has_choices() const;
+    /// As evaluate_trials(), but every max, min and abs takes the operand, or the sign, that it takes at `estimates`,
+    /// whichever would be chosen in the trial: the model without the kinks. A max or min with a value that is the same in all
+    /// trials, as max(x, 0), keeps to a limit and is taken as it is. NaN where implicit equations choose otherwise, or have
+    /// no solution; where an operation has no finite value, whatever follows from that.
+    /// \throws NoResultError  as evaluate(), at the estimates
+    void evaluate_as_chosen(const Eigen::VectorXd& estimates, const Eigen::Ref<const Eigen::MatrixXd>& x,
+                            Eigen::Ref<Eigen::MatrixXd> y, const Eigen::VectorXd& start = {}) const;
+
 private:
     struct Compiled;
     explicit EquationSystem(std::shared_ptr<const Compiled> compiled) : compiled_(std::move(compiled)) {}

@@ -48,6 +48,11 @@ enum class Operation : std::uint8_t {
     return operation >= Operation::negate && operation < Operation::add;
 }
 
+/// Takes one of two values, by which of them is larger: there the model has a kink.
+[[nodiscard]] constexpr bool is_choice(Operation operation) {
+    return operation == Operation::absolute || operation == Operation::minimum || operation == Operation::maximum;
+}
+
 inline constexpr double k_ice_point = 273.15;  ///< K: t/°C = T/K − 273.15 (SI brochure, 9th edition, 2.3.1)
 
 /// The value of a step. One function for single evaluations and for trials, so that both agree to the last bit.

@@ -253,6 +253,42 @@ void Tape::values(TapeWorkspace& workspace, std::size_t first, std::size_t last)
     }
 }
 
+bool Tape::has_choices() const {
+    return std::any_of(steps_.begin(), steps_.end(), [](const TapeStep& step) { return is_choice(step.operation); });
+}
+
+std::vector<Choice> Tape::choices(const TapeWorkspace& workspace, const std::vector<bool>& varying) const {
+    std::vector<bool> varies(first_step_slot() + steps_.size() + 1, false);
+    std::copy(varying.begin(), varying.end(), varies.begin());
+    std::vector<Choice> chosen(steps_.size(), Choice::none);
+    for (std::size_t k = 0; k < steps_.size(); ++k) {
+        const auto [operation, slot_a, slot_b] = steps_[k];
+        const double a = workspace.value[at(slot_a)];
+        const double b = workspace.value[at(slot_b)];
+        varies[first_step_slot() + k] = varies[at(slot_a)] || varies[at(slot_b)];
+        if (operation == Operation::absolute) {
+            chosen[k] = a < 0.0 ? Choice::second : Choice::first;
+        } else if (is_choice(operation) && varies[at(slot_a)] && varies[at(slot_b)]) {
+            chosen[k] = (operation == Operation::minimum ? b < a : b > a) ? Choice::second : Choice::first;
+        }
+    }
+    return chosen;
+}
+
+void Tape::values_as_chosen(TapeWorkspace& workspace, const std::vector<Choice>& choices) const {
+    double* const value = workspace.value.data();
+    double* const result = value + first_step_slot();
+    for (std::size_t k = 0; k < steps_.size(); ++k) {
+        const TapeStep& step = steps_[k];
+        const double a = value[step.a];
+        const double b = value[step.b];
+        result[k] = choices[k] == Choice::none              ? apply(step.operation, a, b)
+                    : choices[k] == Choice::first           ? a
+                    : step.operation == Operation::absolute ? -a
+                                                            : b;
+    }
+}
+
 void Tape::values_and_partials(TapeWorkspace& workspace, std::size_t first, std::size_t last, bool second) const {
     if (second && workspace.daa.size() < steps_.size()) {
         workspace.daa.resize(steps_.size());

@@ -25,6 +25,9 @@ struct TapeStep {
     std::int32_t b = 0;
 };
 
+/// What a step takes that has a choice, max, min or abs: the operand that stands first (of abs: a), or the other (−a).
+enum class Choice : std::uint8_t { none, first, second };
+
 /// Memory that evaluations reuse; one a thread.
 struct TapeWorkspace {
     std::vector<double> value;            // a slot
@@ -58,6 +61,14 @@ public:
 
     /// Values of the steps in [first, last) from the leaves in workspace.value.
     void values(TapeWorkspace& workspace, std::size_t first, std::size_t last) const;
+    /// True when a step takes one of two values: max, min and abs.
+    [[nodiscard]] bool has_choices() const;
+    /// Which value each step takes from the values in the workspace, of two equal ones the first. A max or min of which only
+    /// one operand varies keeps to a limit, and is no choice.
+    /// \param varying  a leaf
+    [[nodiscard]] std::vector<Choice> choices(const TapeWorkspace& workspace, const std::vector<bool>& varying) const;
+    /// As values(), with the choices made elsewhere.
+    void values_as_chosen(TapeWorkspace& workspace, const std::vector<Choice>& choices) const;
     /// Values and first partial derivatives of each step; with `second` the second ones, too.
     void values_and_partials(TapeWorkspace& workspace, std::size_t first, std::size_t last, bool second) const;
     /// Steps that the residuals need: they come first on the tape.

@@ -19,7 +19,6 @@ namespace {
 
 using Eigen::Index;
 
-constexpr std::size_t k_draws_of_errors = 16384;
 constexpr std::size_t k_draws_at_once = 1024;
 // u is that of this probability for larger ones, too: k u is then wider than it need be, and u, and with it what is said of conformity,
 // does not depend on the probability for which U is printed.
@@ -117,7 +116,7 @@ ExtremeValues range_of(Eigen::VectorXd value, Eigen::MatrixXd covariance) {
 }
 
 ExtremeUncertainty extreme_uncertainty(const ExtremeValues& values, double coverage_probability,
-                                       double degrees_of_freedom) {
+                                       double degrees_of_freedom, std::size_t draws) {
     const double p = std::min(coverage_probability, k_probability_of_u);
     // The extreme one may be any of n, so that n (n - 1) differences are to be held, each on one side; of one value there is none.
     const auto n = static_cast<double>(values.value.size());
@@ -143,7 +142,7 @@ ExtremeUncertainty extreme_uncertainty(const ExtremeValues& values, double cover
     const ErrorDraws errors(values.covariance(drawn, drawn), degrees_of_freedom);
     std::vector<double> of_law;
     std::vector<double> of_all;
-    for (std::size_t first = 0; first < k_draws_of_errors; first += k_draws_at_once) {
+    for (std::size_t first = 0; first < draws; first += k_draws_at_once) {
         const Eigen::MatrixXd e = errors.from(first);
         Eigen::VectorXd top = e.col(place(high.front().at));
         Eigen::VectorXd bottom = Eigen::VectorXd::Zero(e.rows());

@@ -15,12 +15,12 @@
 #include "engine/rotary_table/trials/rotary_table_trials.h"
 #include "gum/analysis_of_variance.h"
 #include "gum/coverage.h"
-#include "gum/monte_carlo/extreme_uncertainty.h"
 #include "gum/monte_carlo/validation_in_unit.h"
 #include "gum/monte_carlo/worker_threads.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/progress.h"
 #include "gum/rotary_table/document_units.h"
+#include "gum/rotary_table/widened_extremes.h"
 
 namespace gumcert::gum {
 
@@ -129,101 +129,6 @@ QuantityUncertainty stated_by_all_coefficients(const MeasurementModel& model, do
     return result;
 }
 
-/// The six ranges: their u is that of all angles that may be extreme, not of the two that are in the estimate.
-void widen_ranges(RotaryTableResult& result, std::size_t angles, double coverage_probability) {
-    const engine::TableParameterLayout& layout = result.parameter_model->parameters()->layout();
-    for (Eigen::Index motion = 0; motion < 6; ++motion) {
-        std::vector<Eigen::Index> at;
-        for (std::size_t angle = 0; angle < angles; ++angle) {
-            at.push_back(6 * static_cast<Eigen::Index>(angle) + motion);
-        }
-        const Eigen::Index range = layout.ranges + motion;
-        const ExtremeValues errors = range_of(result.reported.budget.value(at), result.reported.covariance.of(at));
-        state_extreme(
-            result.parameters, range,
-            extreme_uncertainty(errors, coverage_probability, result.parameters.effective_degrees_of_freedom[range]));
-    }
-}
-
-/// Combinations of the positions of visits, for their covariance.
-class CombinedPositions final : public MeasurementModel {
-public:
-    CombinedPositions(const engine::TableParameterModel& table, Eigen::VectorXd value,
-                      const Eigen::MatrixXd& by_position)
-        : table_(table), value_(std::move(value)), jacobian_(table.jacobian_of_positions(by_position)) {
-        outputs_.assign(static_cast<std::size_t>(value_.size()), {"deviation", "rad"});
-    }
-
-    [[nodiscard]] const std::vector<InputGroup>& inputs() const override { return table_.inputs(); }
-    [[nodiscard]] const std::vector<OutputQuantity>& outputs() const override { return outputs_; }
-    [[nodiscard]] Eigen::VectorXd evaluate(const Eigen::VectorXd& /*x*/) const override { return value_; }
-    [[nodiscard]] Eigen::MatrixXd jacobian(const Eigen::VectorXd& /*x*/) const override { return jacobian_; }
-
-private:
-    const engine::TableParameterModel& table_;
-    Eigen::VectorXd value_;
-    Eigen::MatrixXd jacobian_;
-    std::vector<OutputQuantity> outputs_;
-};
-
-/// Those of some values that lie near their extreme one.
-std::vector<Eigen::Index> near_extreme(const std::vector<Eigen::Index>& some, const Eigen::VectorXd& value, double sign,
-                                       double distance) {
-    double most = -std::numeric_limits<double>::infinity();
-    for (const Eigen::Index i : some) {
-        most = std::max(most, sign * value[i]);
-    }
-    std::vector<Eigen::Index> near;
-    std::ranges::copy_if(some, std::back_inserter(near),
-                         [&](Eigen::Index i) { return most - sign * value[i] <= distance; });
-    return near;
-}
-
-/// The same for the parameters of ISO 230-2 that are stated: which targets are extreme, or scatter most, is not known either.
-void widen_positioning(RotaryTableResult& result, double coverage_probability) {
-    const engine::TableParameterModel& model = *result.parameter_model;
-    const engine::TableParameters& parameters = *model.parameters();
-    const engine::TableParameterLayout& layout = parameters.layout();
-    // Many times the u of a difference of two: what lies further away needs no covariance.
-    constexpr double k_far = 12.0;
-    const auto& names = engine::positioning_parameter_names();
-    for (Eigen::Index i = layout.positioning; i < layout.positioning + layout.positioning_count; ++i) {
-        const std::string& name = parameters.short_names()[static_cast<std::size_t>(i)];
-        if (!result.positioning.states(name) || !holds_noise_already(parameters, i)) {
-            continue;
-        }
-        const auto parameter =
-            static_cast<engine::PositioningParameter>(std::find(names.begin(), names.end(), name) - names.begin());
-        const engine::PositioningExtremes all =
-            engine::positioning_extremes(parameters.runs(), model.nominal_positions(), parameter);
-        const double distance =
-            k_far * std::max(result.parameters.standard_uncertainty[i], result.positioning.u_deviation);
-        ExtremeValues values{.value = all.value,
-                             .covariance = {},
-                             .upper = near_extreme(all.upper, all.value, 1.0, distance),
-                             .lower = near_extreme(all.lower, all.value, -1.0, distance)};
-        if (values.upper.size() <= 1 && values.lower.size() <= 1) {
-            continue;
-        }
-        std::vector<Eigen::Index> kept = values.upper;
-        kept.insert(kept.end(), values.lower.begin(), values.lower.end());
-        std::sort(kept.begin(), kept.end());
-        kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
-        for (std::vector<Eigen::Index>* some : {&values.upper, &values.lower}) {
-            for (Eigen::Index& one : *some) {
-                one = std::lower_bound(kept.begin(), kept.end(), one) - kept.begin();
-            }
-        }
-        values.value = all.value(kept);
-        values.covariance =
-            propagate(CombinedPositions(model, values.value, all.by_deviation(kept, Eigen::all)), coverage_probability)
-                .covariance;
-        state_extreme(
-            result.parameters, i,
-            extreme_uncertainty(values, coverage_probability, result.parameters.effective_degrees_of_freedom[i]));
-    }
-}
-
 }  // namespace
 
 engine::EvaluationOptions single_test_options(const engine::RotaryTableMeasurement& measurement) {
@@ -291,8 +196,15 @@ RotaryTableResult evaluate_rotary_table(RotaryTableRequest& request, unsigned th
     if (result.parameter_model->parameters()->layout().positioning_count > 0) {
         result.positioning = positioning_scope(*result.parameter_model);
     }
-    widen_ranges(result, measurement.angles.size(), probability);
-    widen_positioning(result, probability);
+    const MotionCovariances covariances = motion_covariances(result.reported.covariance, measurement.angles.size());
+    const TableDeviations deviations{.model = *result.parameter_model,
+                                     .reported = result.reported.budget.value,
+                                     .covariance = covariances,
+                                     .positions = result.parameter_model->nominal_positions(),
+                                     .u_deviation = result.positioning.u_deviation};
+    widen_ranges(result.parameters, deviations);
+    widen_positioning(result.parameters, deviations,
+                      [&](const std::string& name) { return result.positioning.states(name); });
     if (request.machine_frame) {
         result.location_errors =
             evaluate_location_errors(request, solution, result.reported.budget, result.reported.covariance);

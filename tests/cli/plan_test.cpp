@@ -382,7 +382,7 @@ TEST_F(Plan, ParametersHaveTheUncertaintyThatAnEvaluationStates) {
     }
     for (const json& range : rotary["ranges"]) {
         const std::string name = "range of " + range["name"].get<std::string>();
-        // Where it is clear which angles are extreme, as of EXA and ECA; an evaluation of others states more (ADR 0090).
+        // Of EXA and ECA it is as clear which angles are extreme as of the drawn tables; of the others an evaluation states more.
         EXPECT_LT(u.at(name) / range["u"].get<double>(), 1.05) << name;
         if (name == "range of EXA" || name == "range of ECA") {
             EXPECT_NEAR(u.at(name) / range["u"].get<double>(), 1.0, 0.05) << name;

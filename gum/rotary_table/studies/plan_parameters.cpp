@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <memory>
 #include <utility>
 
 #include "engine/rotary_table/datum.h"
+#include "engine/rotary_table/rotary_table_contributions.h"
 #include "engine/rotary_table/rotary_table_model.h"
 #include "engine/rotary_table/studies/measurement_plan.h"
 #include "engine/rotary_table/table_parameters.h"
@@ -25,6 +27,8 @@ using engine::RotaryTableMeasurement;
 using engine::TableParameterModel;
 
 constexpr std::uint64_t k_seed = 230;
+// Two digits of U are enough before a measurement, and every layout that is looked at costs these draws.
+constexpr std::size_t k_draws_of_a_plan = 2048;
 // Error motions of the drawn tables, so large that noise does not decide which angle is extreme.
 constexpr double k_drawn_linear = 1e-5;           // [m]
 constexpr double k_drawn_against_scatter = 10.0;  // of the angular ones against the scatter of a run
@@ -36,59 +40,57 @@ double deviate(std::uint64_t table, std::uint64_t number) {
     return standard_normal_quantile((static_cast<double>(word >> 11U) + 0.5) * k_step);
 }
 
-/// A table that shows certain error motions, as the law of propagation sees it.
-class DrawnTable final : public MeasurementModel {
+/// The law of propagation at a table that shows certain values.
+class ShownTable final : public MeasurementModel {
 public:
-    DrawnTable(const TableParameterModel& model, const RotaryTableMeasurement& layout, double scatter, int table)
-        : model_(model) {
-        const auto number = static_cast<std::uint64_t>(table);
-        const auto angles = static_cast<Eigen::Index>(layout.angles.size());
-        const auto visits = static_cast<Eigen::Index>(model.visits().size());
-        reported_ = Eigen::VectorXd::Zero(reported_size(model, angles));
-        for (Eigen::Index i = 0; i < 6 * angles; ++i) {
-            const bool zero = layout.datum == engine::Datum::home && i / 6 == static_cast<Eigen::Index>(layout.home);
-            const double size = i % 6 < 3 ? k_drawn_linear : k_drawn_against_scatter * scatter;
-            reported_[i] = zero ? 0.0 : size * deviate(2 * number, static_cast<std::uint64_t>(i));
-        }
-        positions_ = Eigen::VectorXd::Zero(visits);
-        const int axial = 3 + engine::axial_coordinate(layout.axis);
-        for (Eigen::Index v = 0; v < visits; ++v) {
-            const auto angle = static_cast<Eigen::Index>(model.visits()[static_cast<std::size_t>(v)].angle);
-            positions_[v] =
-                reported_[6 * angle + axial] + scatter * deviate(2 * number + 1, static_cast<std::uint64_t>(v));
-        }
-    }
+    ShownTable(const TableParameterModel& model, const TableValues& values) : model_(model), values_(values) {}
 
     [[nodiscard]] const std::vector<InputGroup>& inputs() const override { return model_.inputs(); }
     [[nodiscard]] const std::vector<OutputQuantity>& outputs() const override { return model_.outputs(); }
     [[nodiscard]] Eigen::VectorXd evaluate(const Eigen::VectorXd& /*x*/) const override {
         Eigen::VectorXd result(static_cast<Eigen::Index>(outputs().size()));
-        model_.parameters()->values(reported_, positions_, result);
+        model_.parameters()->values(values_.reported, values_.positions, result);
         return result;
     }
     [[nodiscard]] Eigen::MatrixXd jacobian(const Eigen::VectorXd& /*x*/) const override {
-        return model_.jacobian_of_table(reported_, positions_);
+        return model_.jacobian_of_table(values_.reported, values_.positions);
     }
 
 private:
-    static Eigen::Index reported_size(const TableParameterModel& model, Eigen::Index angles) {
-        return 6 * angles + 4 + (model.has_reversal() ? 6 : 0);
-    }
-
     const TableParameterModel& model_;
-    Eigen::VectorXd reported_, positions_;
+    const TableValues& values_;
 };
 
-/// Standard uncertainties of the outputs, root mean square over the drawn tables.
-Eigen::VectorXd rms_uncertainty(const TableParameterModel& model, const RotaryTableMeasurement& layout,
-                                double scatter) {
-    Eigen::VectorXd squares = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(model.outputs().size()));
-    constexpr double k_any_probability = 0.95;  // of U, which is not used
-    for (int table = 0; table < k_drawn_tables; ++table) {
-        const Propagation law = propagate(DrawnTable(model, layout, scatter, table), k_any_probability);
-        squares += law.standard_uncertainty.cwiseAbs2();
+/// \param scatter  of a run
+TableValues drawn_table(const TableParameterModel& model, const RotaryTableMeasurement& layout, double scatter,
+                        int table) {
+    const auto number = static_cast<std::uint64_t>(table);
+    const auto angles = static_cast<Eigen::Index>(layout.angles.size());
+    const auto visits = static_cast<Eigen::Index>(model.visits().size());
+    TableValues values{.reported = Eigen::VectorXd::Zero(6 * angles + 4 + (model.has_reversal() ? 6 : 0)),
+                       .positions = Eigen::VectorXd::Zero(visits)};
+    for (Eigen::Index i = 0; i < 6 * angles; ++i) {
+        const bool zero = layout.datum == engine::Datum::home && i / 6 == static_cast<Eigen::Index>(layout.home);
+        const double size = i % 6 < 3 ? k_drawn_linear : k_drawn_against_scatter * scatter;
+        values.reported[i] = zero ? 0.0 : size * deviate(2 * number, static_cast<std::uint64_t>(i));
     }
-    return (squares / k_drawn_tables).cwiseSqrt();
+    const int axial = 3 + engine::axial_coordinate(layout.axis);
+    for (Eigen::Index v = 0; v < visits; ++v) {
+        const auto angle = static_cast<Eigen::Index>(model.visits()[static_cast<std::size_t>(v)].angle);
+        values.positions[v] =
+            values.reported[6 * angle + axial] + scatter * deviate(2 * number + 1, static_cast<std::uint64_t>(v));
+    }
+    return values;
+}
+
+/// The name of a parameter of ISO 230-2 that a plan states: of both senses where there are such, else of the one sense.
+std::optional<std::string> stated_name(const std::vector<std::string>& names, const std::string& letter) {
+    for (const std::string& name : {letter, letter + "_up", letter + "_down"}) {
+        if (std::find(names.begin(), names.end(), name) != names.end()) {
+            return name;
+        }
+    }
+    return std::nullopt;
 }
 
 /// E, R and A of both senses where there are such, else those of the one sense; with their targets.
@@ -99,15 +101,12 @@ void add_positioning(const engine::TableParameters& parameters, const Eigen::Vec
         {{"E", targets.systematic}, {"R", targets.repeatability}, {"A", targets.accuracy}}};
     for (const auto& [letter, target] : wanted) {
         const std::string name = letter;
-        auto found = names.end();
-        for (const std::string& one : {name, name + "_up", name + "_down"}) {
-            found = found == names.end() ? std::find(names.begin(), names.end(), one) : found;
+        const std::optional<std::string> found = stated_name(names, name);
+        PlannedParameter parameter{found.value_or(name), true, std::nullopt, target};
+        if (found && (scatter_stated || !rests_on_scatter(name))) {
+            parameter.U = k * u[std::find(names.begin(), names.end(), *found) - names.begin()];
         }
-        PlannedParameter parameter{found == names.end() ? name : *found, true, std::nullopt, target};
-        if (found != names.end() && (scatter_stated || !rests_on_scatter(name))) {
-            parameter.U = k * u[found - names.begin()];
-        }
-        if (found != names.end() || target) {
+        if (found || target) {
             expected.all.push_back(std::move(parameter));
         }
     }
@@ -115,8 +114,28 @@ void add_positioning(const engine::TableParameters& parameters, const Eigen::Vec
 
 }  // namespace
 
+Eigen::VectorXd uncertainties_of_table(const TableParameterModel& model, const MotionCovariances& covariance,
+                                       const TableValues& values, bool scatter_stated, double coverage_probability) {
+    const std::vector<std::string>& names = model.parameters()->short_names();
+    const auto is_stated = [&](const std::string& name) {
+        const std::string letter = name.substr(0, 1);
+        const bool is_planned = letter == "E" || letter == "R" || letter == "A";
+        return is_planned && (scatter_stated || !rests_on_scatter(name)) && stated_name(names, letter) == name;
+    };
+    Propagation stated = propagate(ShownTable(model, values), coverage_probability);
+    const TableDeviations deviations{.model = model,
+                                     .reported = values.reported,
+                                     .covariance = covariance,
+                                     .positions = values.positions,
+                                     .u_deviation = model.rms_position_uncertainty(),
+                                     .draws = k_draws_of_a_plan};
+    widen_ranges(stated, deviations);
+    widen_positioning(stated, deviations, is_stated);
+    return stated.standard_uncertainty;
+}
+
 ExpectedParameters expected_parameters(const RotaryTableMeasurement& layout, const engine::StochasticModel& stochastic,
-                                       const ParameterTargets& targets, double k) {
+                                       const ParameterTargets& targets, double k, double coverage_probability) {
     constexpr double k_infinite = std::numeric_limits<double>::infinity();
     const engine::JointAdjustment adjustment = engine::planned_adjustment(layout, stochastic);
     const auto table = std::make_shared<engine::RotaryTableModel>(
@@ -130,7 +149,15 @@ ExpectedParameters expected_parameters(const RotaryTableMeasurement& layout, con
     const double noise = expected.u_deviation * expected.u_deviation;
     const double scatter = noise + stochastic.variance_axial;
     expected.share_of_the_noise = scatter > 0.0 ? noise / scatter : 0.0;
-    const Eigen::VectorXd u = rms_uncertainty(model, layout, std::sqrt(scatter));
+    const bool scatter_stated = expected.share_of_the_noise <= k_largest_scatter_share * (1.0 + 1e-12);
+    const MotionCovariances covariance =
+        motion_covariances(engine::contributions_of(*table).covariance, layout.angles.size());
+    Eigen::VectorXd squares = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(model.outputs().size()));
+    for (int number = 0; number < k_drawn_tables; ++number) {
+        const TableValues drawn = drawn_table(model, layout, std::sqrt(scatter), number);
+        squares += uncertainties_of_table(model, covariance, drawn, scatter_stated, coverage_probability).cwiseAbs2();
+    }
+    const Eigen::VectorXd u = (squares / k_drawn_tables).cwiseSqrt();
     const engine::TableParameterLayout& places = model.parameters()->layout();
     const auto add = [&](Eigen::Index index, bool angular, const std::optional<double>& target) {
         expected.all.push_back({model.outputs()[static_cast<std::size_t>(index)].name, angular, k * u[index], target});
@@ -141,7 +168,6 @@ ExpectedParameters expected_parameters(const RotaryTableMeasurement& layout, con
     for (Eigen::Index c = 0; c < 4; ++c) {
         add(places.axis_line + c, c >= 2, c < 2 ? targets.location_linear : targets.location_angular);
     }
-    const bool scatter_stated = expected.share_of_the_noise <= k_largest_scatter_share * (1.0 + 1e-12);
     add_positioning(*model.parameters(), u, scatter_stated, targets, k, expected);
     return expected;
 }

@@ -1,13 +1,17 @@
 #pragma once
 
+#include <Eigen/Core>
+
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "engine/rotary_table/joint_adjustment.h"
 #include "engine/rotary_table/rotary_table_measurement.h"
+#include "engine/rotary_table/table_parameters.h"
 #include "gum/rotary_table/document_units.h"
 #include "gum/rotary_table/studies/plan_request.h"
+#include "gum/rotary_table/widened_extremes.h"
 
 /// What a plan expects of the parameters that standards name: ranges, location of the axis, E, R and A.
 namespace gumcert::gum::plan {
@@ -29,17 +33,36 @@ struct ExpectedParameters {
     double share_of_the_noise = 0.0;  ///< of the measurement in the variance of the runs, [1]
 };
 
+/// What a table shows.
+struct TableValues {
+    Eigen::VectorXd reported;   ///< six error motions an angle, set-up, and the reversals where they are parameters
+    Eigen::VectorXd positions;  ///< of the visits, [rad]
+};
+
+/// Standard uncertainties of the parameters of a table that shows these values, as an evaluation states them: the ranges and the
+/// parameters of ISO 230-2 that a plan states for every angle that may be extreme, the others by the law of propagation.
+/// \param model           of the planned layout
+/// \param covariance      of the error motions
+/// \param scatter_stated  R and A are stated
+/// Accuracy: a few percent where the extremes are not clear, from the number of draws.
+[[nodiscard]] Eigen::VectorXd uncertainties_of_table(const engine::TableParameterModel& model,
+                                                     const MotionCovariances& covariance, const TableValues& values,
+                                                     bool scatter_stated, double coverage_probability);
+
 /// Tables that are drawn to see where the extremes of the parameters may lie.
 constexpr int k_drawn_tables = 10;
 
 /// U of a range, of E, R and A depends on which angles are extreme and on how the runs scatter, which is not known
 /// before the measurement: it is the root mean square over drawn tables, by the functions with which `gumcert evaluate`
-/// states it. Error motions are drawn large against what the measurement does not know of them; runs scatter by the
-/// repeatability of the table and the noise of one deviation. The draws are the same for every layout of as many
-/// angles.
+/// states it, for every angle that may be extreme (gum/rotary_table/widened_extremes.h). Error motions are drawn large against
+/// what the measurement does not know of them, and one angle is independent of the next: of a smooth curve more angles lie near the
+/// extreme, and an evaluation states up to some tenths more (ADR 0090). Runs scatter by the repeatability of the table and the noise
+/// of one deviation. The draws are the same for every layout of as many angles.
 /// \param layout  with predicted lengths
+/// Accuracy: a few percent of U where the extremes are not clear, from the number of draws.
 [[nodiscard]] ExpectedParameters expected_parameters(const engine::RotaryTableMeasurement& layout,
                                                      const engine::StochasticModel& stochastic,
-                                                     const ParameterTargets& targets, double k);
+                                                     const ParameterTargets& targets, double k,
+                                                     double coverage_probability);
 
 }  // namespace gumcert::gum::plan

@@ -254,7 +254,8 @@ Expected expect(const Setting& setting, const RotaryTableMeasurement& layout) {
     expected.uncertainty = engine::expected_uncertainty(layout, setting.stochastic, evaluation_options(setting.layout));
     expected.motions = motions_of(expected.uncertainty.covariance.diagonal(), layout.angles.size(), setting.k);
     expected.ratio = ratio_of(setting, expected.motions);
-    expected.parameters = expected_parameters(layout, setting.stochastic, setting.request.parameter_targets, setting.k);
+    expected.parameters = expected_parameters(layout, setting.stochastic, setting.request.parameter_targets, setting.k,
+                                              setting.coverage_probability);
     return expected;
 }
 

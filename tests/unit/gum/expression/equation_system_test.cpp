@@ -224,5 +224,26 @@ TEST(Derivatives, OfManyOutputs) {
     }
 }
 
+TEST(EquationSystem, EvaluatesTrialsAsChosenAtTheEstimates) {
+    const EquationSystem system = system_of({"y = max(a, b) + abs(a)", "z = max(a, 0)"}, {input("a"), input("b")});
+    EXPECT_TRUE(system.has_choices());
+    EXPECT_FALSE(system_of({"y = hypot(a, b)"}, {input("a"), input("b")}).has_choices());
+    Eigen::MatrixXd x(3, 2);
+    x << 2.0, 1.0, 1.0, 3.0, -1.0, -2.0;
+    Eigen::MatrixXd y(3, 2);
+    system.evaluate_as_chosen(Eigen::Vector2d(2.0, 1.0), x, y);
+    Eigen::MatrixXd expected(3, 2);
+    expected << 4.0, 2.0, 2.0, 1.0, -2.0, 0.0;
+    EXPECT_EQ(y, expected);
+    // The solution of implicit equations that choose otherwise is not known.
+    const EquationSystem implicit =
+        system_of({"0 = 2*v - max(a, b)", "y = v + min(a, b)"}, {input("a"), input("b")}, {unknown("v", 1.0)});
+    Eigen::MatrixXd of_implicit(3, 1);
+    implicit.evaluate_as_chosen(Eigen::Vector2d(2.0, 1.0), x, of_implicit);
+    EXPECT_DOUBLE_EQ(of_implicit(0), 2.0);
+    EXPECT_TRUE(std::isnan(of_implicit(1)));
+    EXPECT_DOUBLE_EQ(of_implicit(2), -2.5);
+}
+
 }  // namespace
 }  // namespace gumcert::gum

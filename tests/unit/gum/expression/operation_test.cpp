@@ -79,5 +79,14 @@ TEST(Operation, VisitorSeesTheSameStep) {
     EXPECT_EQ(visit_step(Operation::pi, []<Operation step>() { return step; }), Operation::number);
 }
 
+TEST(Operation, ThreeChooseOneOfTwoValues) {
+    for (int i = 0; i <= static_cast<int>(Operation::hypot); ++i) {
+        const auto operation = static_cast<Operation>(i);
+        EXPECT_EQ(is_choice(operation), operation == Operation::absolute || operation == Operation::minimum ||
+                                            operation == Operation::maximum)
+            << i;
+    }
+}
+
 }  // namespace
 }  // namespace gumcert::gum

@@ -123,5 +123,30 @@ TEST(Tape, EqualPartsAreOneStep) {
     EXPECT_EQ(builder.finish({}, {builder.step(Operation::subtract, first, first, {})}).step_count(), 2U);
 }
 
+TEST(Tape, RepeatsChoicesThatWereMadeElsewhere) {
+    EXPECT_FALSE(two_outputs().has_choices());
+    TapeBuilder builder(2);
+    const TapeBuilder::Node a = builder.leaf(0);
+    const TapeBuilder::Node b = builder.leaf(1);
+    const Tape tape =
+        builder.finish({}, {builder.step(Operation::maximum, a, b, {}), builder.step(Operation::absolute, a, a, {}),
+                            builder.step(Operation::minimum, b, builder.constant(1.0), {})});
+    EXPECT_TRUE(tape.has_choices());
+    TapeWorkspace workspace = at(tape, -3.0, 0.5);
+    tape.values(workspace, 0, tape.step_count());
+    const std::vector<Choice> chosen = tape.choices(workspace, {true, true});
+    EXPECT_EQ(chosen, (std::vector<Choice>{Choice::second, Choice::second, Choice::none}));
+    EXPECT_EQ(tape.choices(workspace, {true, false})[0], Choice::none);
+    workspace = at(tape, 4.0, 2.0);
+    tape.values_as_chosen(workspace, chosen);
+    EXPECT_EQ(root_value(tape, workspace, 0), 2.0);
+    EXPECT_EQ(root_value(tape, workspace, 1), -4.0);
+    EXPECT_EQ(root_value(tape, workspace, 2), 1.0);
+    // Of two equal ones the first.
+    workspace = at(tape, 2.0, 2.0);
+    tape.values(workspace, 0, tape.step_count());
+    EXPECT_EQ(tape.choices(workspace, {true, true})[0], Choice::first);
+}
+
 }  // namespace
 }  // namespace gumcert::gum

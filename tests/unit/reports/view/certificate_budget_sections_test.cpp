@@ -166,10 +166,12 @@ TEST(BudgetCertificate, PrintsTheReportedResult) {
     EXPECT_THAT(text, HasSubstr("no expanded uncertainty is stated."));
     EXPECT_THAT(text, HasSubstr("is reported for l, because second-order terms change the standard uncertainty or the "
                                 "estimate noticeably"));
+    EXPECT_THAT(text, HasSubstr("the measurement model gives another value: l: 50000838 nm."));
     l.reported = monte_carlo_result(50000838.0, 35.6, {50000744.0, 50000932.0}, 0.99, "contradicted");
     print_reported(l.reported, l.unit);
     text = text_of(r);
     EXPECT_THAT(text, HasSubstr(" 50000838 94 nm 2.64 – "));
+    EXPECT_THAT(text, Not(HasSubstr("gives another value")));
     EXPECT_THAT(text, HasSubstr("half the width of the probabilistically symmetric interval"));
     l.reported = law_of_propagation_result(50000838.0, 31.7, 92.6, 2.92, 0.99);
     l.reported.against = "vanishing";

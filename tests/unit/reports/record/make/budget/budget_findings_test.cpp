@@ -238,5 +238,15 @@ TEST(BudgetFindings, ExactResultsHaveTheDigitsThatAreHeld) {
     }
 }
 
+// GC-BUDGET-0044
+TEST(BudgetFindings, TellsWhatTrialsChooseOtherwise) {
+    const auto amount = [](const std::string& value) {
+        return record_of(R"_("model": ["y = abs(a)"], "monte_carlo": {"trials": 20000}, "inputs": {"a": {"value": )_" +
+                         value + R"_(, "u": 1, "unit": "mm"}})_");
+    };
+    EXPECT_EQ(findings(amount("0.5"), "accredited"), "S18 major");
+    EXPECT_EQ(findings(amount("0.5"), "not_accredited"), "S18 major");
+    EXPECT_EQ(findings(amount("9"), "accredited"), "");
+}
 }  // namespace
 }  // namespace gumcert::reports

@@ -1,0 +1,104 @@
+#include "gum/budget/other_choice.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "gum/monte_carlo/random_draws.h"
+#include "gum/rounding.h"
+
+namespace gumcert::gum {
+
+namespace {
+
+constexpr std::uint64_t k_trials_looked_at = 4096;
+constexpr Eigen::Index k_trials_in_a_block = 512;
+constexpr double k_same = 0.01;  // of half the width of the interval: no printed digit
+
+std::string in_unit(double si, double u, const Unit& unit) {
+    const std::string people = unit_for_people(unit.text());
+    const double difference = unit.difference_from_si(u);
+    const std::string number = difference > 0.0 ? round_to_uncertainty(unit.from_si(si), difference, 2).value
+                                                : round_significant(unit.from_si(si), 6);
+    return people.empty() ? number : number + " " + people;
+}
+
+}  // namespace
+
+std::vector<double> shares_of_other_choices(const BudgetPointResult& point, std::uint64_t seed) {
+    const std::size_t outputs = point.outputs.size();
+    std::vector<double> shares(outputs, 0.0);
+    const BudgetModel& model = *point.model;
+    if (!model.has_choices()) {
+        return shares;
+    }
+    const InputDraws draws(model.inputs(), seed, point.streams);
+    Eigen::MatrixXd x(k_trials_in_a_block, draws.size());
+    Eigen::MatrixXd y(k_trials_in_a_block, static_cast<Eigen::Index>(outputs));
+    Eigen::MatrixXd as_chosen(y.rows(), y.cols());
+    for (std::uint64_t first = 0; first < k_trials_looked_at; first += static_cast<std::uint64_t>(x.rows())) {
+        draws.draw(first, x);
+        model.evaluate_trials(x, y);
+        model.evaluate_as_chosen(x, as_chosen);
+        for (std::size_t i = 0; i < outputs; ++i) {
+            const auto& trials = point.outputs[i].monte_carlo;
+            if (!trials) {
+                continue;
+            }
+            const double same = k_same * 0.5 * (trials->symmetric.high - trials->symmetric.low);
+            const auto column = static_cast<Eigen::Index>(i);
+            // What has no value without the choice is another one, too.
+            shares[i] +=
+                static_cast<double>(x.rows() - ((y.col(column) - as_chosen.col(column)).array().abs() <= same).count());
+        }
+    }
+    for (double& share : shares) {
+        share /= static_cast<double>(k_trials_looked_at);
+    }
+    return shares;
+}
+
+std::optional<Diagnostic> other_choice_message(const Budget& budget, const BudgetResult& result,
+                                               const std::string& output) {
+    const BudgetPointResult* at = nullptr;
+    std::size_t column = 0;
+    std::size_t points = 0;
+    for (const BudgetPointResult& point : result.points) {
+        for (std::size_t i = 0; i < point.outputs.size(); ++i) {
+            const BudgetOutputResult& of = point.outputs[i];
+            if (of.name != output || !of.by_monte_carlo || of.other_choice < k_other_choice_matters) {
+                continue;
+            }
+            ++points;
+            if (at == nullptr || of.other_choice > at->outputs[column].other_choice) {
+                at = &point;
+                column = i;
+            }
+        }
+    }
+    if (at == nullptr) {
+        return std::nullopt;
+    }
+    const BudgetOutputResult& of = at->outputs[column];
+    const double u = of.has_u ? of.monte_carlo->standard_uncertainty
+                              : 0.25 * (of.monte_carlo->symmetric.high - of.monte_carlo->symmetric.low);
+    const std::string value = in_unit(at->propagation.value(static_cast<Eigen::Index>(column)), u, of.unit);
+    return Diagnostic{
+        .code = "GC-BUDGET-0044",
+        .where = "result " + output + (at->point ? " at point " + budget.points[*at->point].name : "") +
+                 (points > 1 ? ", and at " + std::to_string(points - 1) + " more" : ""),
+        .what = "max, min or abs takes another of its values than at the estimates in " +
+                round_significant(100.0 * of.other_choice, 2) + " % of the trials of Monte Carlo" +
+                (of.has_u ? ": the equations give " + value + " at the estimates, and the mean of the trials is " +
+                                in_unit(of.monte_carlo->mean, u, of.unit)
+                          : ": the equations give " + value + " at the estimates"),
+        .rule =
+            "Monte Carlo takes distributions as what is known of the inputs (JCGM 101:2008, 7.6); the largest of "
+            "estimates that were measured holds their errors already, and trials add such errors once more",
+        .action =
+            "Where these inputs were measured, state them as results with their U in place of what is chosen from "
+            "them, or add readings until they differ by more than their uncertainties; where they are limits or "
+            "settings, the result holds.",
+        .severity = Severity::warning};
+}
+
+}  // namespace gumcert::gum
