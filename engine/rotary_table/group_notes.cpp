@@ -29,8 +29,60 @@ std::string plain(double value, int digits) {
     return text::fixed(std::round(value / quantum) * quantum, 0);
 }
 
-/// Why no size is told.
-constexpr const char* k_size_not_known = "; by how much is not known: no adjustment without this error confirms a size";
+/// What is wrong with a group whose size is not told, and why it is not. Empty of kinds that have no size.
+std::string what_without_size(const GroupTest& test) {
+    std::string what;
+    switch (test.kind) {
+        case GroupKind::visit_length:
+            what = "all distances of this visit are off alike";
+            break;
+        case GroupKind::visit_pose:
+            what = "the table stood elsewhere at this visit than at the others of this angle";
+            break;
+        case GroupKind::dead_path_change:
+            what = "from this visit on all distances of the station are off alike";
+            break;
+        case GroupKind::station_place:
+            what = "from this pass on the station stood elsewhere than before";
+            break;
+        case GroupKind::pair_length:
+            what = "all distances between this station and this reflector are off alike";
+            break;
+        case GroupKind::drift:
+            what = test.degrees_of_freedom > 1 ? "the distances of the stations drift from the first visit to the last"
+                                               : "the distances drift from the first visit to the last";
+            break;
+        case GroupKind::reflector:
+            what = "the distances put it elsewhere than its stated coordinates";
+            break;
+        case GroupKind::reflector_at_angles:
+            what = "at these angles the reflector stands elsewhere in the fixture than at all others";
+            break;
+        case GroupKind::reflector_from_visit:
+            what = "from this visit on the reflector stood elsewhere in the fixture than before";
+            break;
+        case GroupKind::fixture_scale:
+            what =
+                "the distances put the whole fixture at another size than that of its coordinates at its temperature";
+            break;
+        case GroupKind::station_scale:
+            what = "all distances of this station are too long or too short by one factor beside those of the others";
+            break;
+        case GroupKind::fixture_place:
+            what = "from this visit on the fixture stood elsewhere on the table than before";
+            break;
+        case GroupKind::expansion:
+            what = "the distances give another expansion coefficient for the fixture than the one that is stated";
+            break;
+        case GroupKind::angle_index:
+        case GroupKind::succession:
+        case GroupKind::station:
+        case GroupKind::senses:
+            return what;
+    }
+    return what + (test.is_settled ? "; by how much could not be determined beside the other suspected errors"
+                                   : "; by how much is not known: no adjustment without this error confirms a size");
+}
 
 std::string chi_square_of(double value) {
     return value < 1000.0 ? text::significant(value, 3) : text::significant(std::round(value), 12);
@@ -79,12 +131,6 @@ std::string place_of(const GroupTest& test, const RotaryTableMeasurement& measur
 std::string scale_of(const GroupTest& test, const RotaryTableMeasurement& measurement) {
     const double size = std::abs(test.estimate);
     const bool is_smaller = test.estimate > 0.0;
-    if (!test.is_settled) {
-        return std::string(
-                   "the distances put the whole fixture at another size than that of its coordinates at its "
-                   "temperature") +
-               k_size_not_known;
-    }
     std::string text = "the distances put the whole fixture " + plain(size * 1e6, 3) + " ppm " +
                        (is_smaller ? "smaller" : "larger") + " than its coordinates at its temperature";
     if (measurement.expansion > 0.0) {
@@ -106,6 +152,9 @@ std::string expansion_of(const GroupTest& test, const RotaryTableMeasurement& me
 }
 
 std::string what_of(const GroupTest& test, const RotaryTableMeasurement& measurement) {
+    if (std::string what = test.has_size() ? std::string() : what_without_size(test); !what.empty()) {
+        return what;
+    }
     switch (test.kind) {
         case GroupKind::visit_length:
             return "all distances of this visit are off by " + size_of(test.estimate) + " alike";
@@ -148,12 +197,6 @@ std::string what_of(const GroupTest& test, const RotaryTableMeasurement& measure
         case GroupKind::fixture_scale:
             return scale_of(test, measurement);
         case GroupKind::station_scale:
-            if (!test.is_settled) {
-                return std::string(
-                           "all distances of this station are too long or too short by one factor beside those "
-                           "of the others") +
-                       k_size_not_known;
-            }
             return "all distances of this station are " + plain(std::abs(test.estimate) * 1e6, 3) + " ppm too " +
                    (test.estimate > 0.0 ? "long" : "short") + " beside those of the others";
         case GroupKind::fixture_place:

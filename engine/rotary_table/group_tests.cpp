@@ -78,6 +78,10 @@ VisitEffects::Effect effect_of_scale(const JointAdjustment& adjustment, const Vi
     return effect;
 }
 
+Eigen::MatrixX3d about_their_centre(const Eigen::MatrixX3d& points) {
+    return points.rowwise() - points.colwise().mean();
+}
+
 class GroupSearch {
 public:
     GroupSearch(const JointAdjustment& adjustment, const NormalEquations& normal, const BorderedCovariance& covariance,
@@ -123,6 +127,9 @@ public:
                 break;
             }
             result_.tests.push_back(worst->test);
+            if (worst->effect) {
+                result_.tests.back().columns = columns_of(worst->effect());
+            }
             worst->take_away();
             retest();
             sequences();
@@ -139,8 +146,13 @@ public:
             search_succession();
             search_stations();
         }
-        const std::vector<GroupTest> of_fixture =
+        std::vector<GroupTest> of_fixture =
             fixture_tests(fixture_misfit(), adjustment_.measurement().fixture, judgement_);
+        for (GroupTest& test : of_fixture) {
+            if (test.suspicious) {
+                test.columns = columns_of_fixture(test);
+            }
+        }
         result_.tests.insert(result_.tests.end(), of_fixture.begin(), of_fixture.end());
         std::stable_sort(result_.tests.begin(), result_.tests.end(), [](const GroupTest& a, const GroupTest& b) {
             return a.suspicious != b.suspicious ? a.suspicious : a.suspicious && is_less_probable(a, b);
@@ -278,7 +290,57 @@ private:
     struct Candidate {
         GroupTest test;
         std::function<void()> take_away;
+        std::function<VisitEffects::Effect()> effect;  ///< none: no unknowns of its own
     };
+
+    static std::function<VisitEffects::Effect()> same(VisitEffects::Effect effect) {
+        return [effect = std::move(effect)] { return effect; };
+    }
+    [[nodiscard]] VisitEffects::Effect effect_of_columns(const std::vector<VisitEffects::Column>& columns) const {
+        VisitEffects::Effect effect(visits_.size());
+        for (std::size_t k = 0; k < columns.size(); ++k) {
+            for (const auto& [g, value] : columns[k]) {
+                if (effect[g].size() == 0) {
+                    effect[g] = MatrixXd::Zero(poses_[g].rows(), std::ssize(columns));
+                }
+                effect[g].col(static_cast<Index>(k)).setConstant(value);
+            }
+        }
+        return effect;
+    }
+    /// An effect by the distances of the measurement, which are the same in adjustments of other visits.
+    [[nodiscard]] MatrixXd columns_of(const VisitEffects::Effect& effect) const {
+        MatrixXd columns;
+        for (std::size_t g = 0; g < effect.size(); ++g) {
+            if (effect[g].size() > 0 && columns.size() == 0) {
+                columns = MatrixXd::Zero(std::ssize(adjustment_.measurement().lengths), effect[g].cols());
+            }
+            for (Index i = 0; i < effect[g].rows(); ++i) {
+                columns.row(static_cast<Index>(visits()[g].observations[static_cast<std::size_t>(i)])) =
+                    effect[g].row(i);
+            }
+        }
+        return columns;
+    }
+    /// Stated coordinates that are off by e make the distances agree with others, by ∂l/∂p e less.
+    [[nodiscard]] MatrixXd columns_of_fixture(const GroupTest& test) const {
+        const RotaryTableMeasurement& measurement = adjustment_.measurement();
+        VisitEffects::Effect effect(visits_.size());
+        for (std::size_t g = 0; g < visits_.size(); ++g) {
+            const VisitEffects::Triple by_place = reflector_columns(g);
+            effect[g] = MatrixXd::Zero(by_place.rows(), test.kind == GroupKind::fixture_scale ? 1 : 3);
+            for (Index i = 0; i < by_place.rows(); ++i) {
+                const std::size_t m =
+                    measurement.lengths[visits()[g].observations[static_cast<std::size_t>(i)]].reflector;
+                if (test.kind == GroupKind::fixture_scale) {
+                    effect[g](i, 0) = -by_place.row(i).dot(measurement.fixture.row(static_cast<Index>(m)));
+                } else if (m == test.reflector) {
+                    effect[g].row(i) = -by_place.row(i);
+                }
+            }
+        }
+        return columns_of(effect);
+    }
 
     static void take(std::optional<Candidate>& best, Candidate candidate) {
         if (!best || is_less_probable(candidate.test, best->test)) {
@@ -322,10 +384,17 @@ private:
             }
             const auto leave_out = [this, g] { visits_.leave_out(g); };
             if (tests_[g].is_controlled) {
-                take(best, {length_test(g, tests_[g]), leave_out});
+                take(best, {length_test(g, tests_[g]), leave_out, [this, g] {
+                                return effect_of_columns({{{g, 1.0}}});
+                            }});
             }
             if (tests_[g].pose_rank > 0 && is_more_than_length(tests_[g]) && is_worst_of_angle(g)) {
-                take(best, {pose_test(g, tests_[g]), leave_out});
+                const auto pose = [this, g] {
+                    VisitEffects::Effect effect(visits_.size());
+                    effect[g] = poses_[g];
+                    return effect;
+                };
+                take(best, {pose_test(g, tests_[g]), leave_out, pose});
             }
         }
         return best;
@@ -354,10 +423,10 @@ private:
         std::optional<Candidate> pose;
         for (std::size_t g = 0; g < visits_.size(); ++g) {
             if (!visits_.is_out(g) && tests_[g].is_controlled) {
-                take(length, {length_test(g, tests_[g]), {}});
+                take(length, {length_test(g, tests_[g]), {}, {}});
             }
             if (!visits_.is_out(g) && tests_[g].pose_rank > 0) {
-                take(pose, {pose_test(g, tests_[g]), {}});
+                take(pose, {pose_test(g, tests_[g]), {}, {}});
             }
         }
         if (length && !length->test.suspicious && none(GroupKind::visit_length)) {
@@ -476,7 +545,8 @@ private:
             }
             if (std::optional<GroupTest> test = column_test(GroupKind::dead_path_change, column, count)) {
                 place(*test, sequence[first]);
-                take(best, {*test, [this, column] { visits_.take_away({column}); }});
+                take(best, {*test, [this, column] { visits_.take_away({column}); },
+                            [this, column] { return effect_of_columns({column}); }});
             }
         }
         return best;
@@ -532,7 +602,7 @@ private:
                     GroupTest placed = *test;
                     place(placed, passes[j][from].front());
                     placed.angle = GroupTest::k_none;  // the whole pass, not its first angle
-                    take(best, {placed, [this, effect] { visits_.take_away(effect, 3); }});
+                    take(best, {placed, [this, effect] { visits_.take_away(effect, 3); }, same(effect)});
                 }
             }
         }
@@ -633,7 +703,7 @@ private:
             if (std::optional<GroupTest> test = place_test(kind, effect, count, scale_within_visits())) {
                 describe(*test, seen[m], found[m]);
                 test->reflector = m;
-                take(best, {*test, [this, effect] { visits_.take_away(effect, 3); }});
+                take(best, {*test, [this, effect] { visits_.take_away(effect, 3); }, same(effect)});
             }
         }
         return best;
@@ -768,7 +838,7 @@ private:
             }
             test->station = pair / reflectors;
             test->reflector = pair % reflectors;
-            take(best, {*test, [this, effect = effects[pair]] { visits_.take_away(effect, 1); }});
+            take(best, {*test, [this, effect = effects[pair]] { visits_.take_away(effect, 1); }, same(effects[pair])});
         }
         return best;
     }
@@ -787,7 +857,7 @@ private:
                 continue;
             }
             test->station = j;
-            take(best, {*test, [this, effect] { visits_.take_away(effect, 1); }});
+            take(best, {*test, [this, effect] { visits_.take_away(effect, 1); }, same(effect)});
         }
         return best;
     }
@@ -820,7 +890,7 @@ private:
         if (coefficient < k_least_expansion || coefficient > k_most_expansion || scales_explain_more(*test)) {
             return std::nullopt;
         }
-        return Candidate{*test, [this, effect] { visits_.take_away(effect, 1); }};
+        return Candidate{*test, [this, effect] { visits_.take_away(effect, 1); }, same(effect)};
     }
 
     /// Whether scales of the stations, each its own, explain clearly more than one coefficient: then some stations have errors
@@ -887,7 +957,7 @@ private:
                 continue;
             }
             test->station = j;
-            take(best, {*test, [this, effect] { visits_.take_away(effect, 1); }});
+            take(best, {*test, [this, effect] { visits_.take_away(effect, 1); }, same(effect)});
         }
         return best;
     }
@@ -959,7 +1029,8 @@ private:
             }
         }
         place(*best, order[from]);
-        return Candidate{*best, [this, effect = fixture_place_effect(order, from)] { visits_.take_away(effect, 6); }};
+        const VisitEffects::Effect effect = fixture_place_effect(order, from);
+        return Candidate{*best, [this, effect] { visits_.take_away(effect, 6); }, same(effect)};
     }
     [[nodiscard]] VisitEffects::Effect fixture_place_effect(const std::vector<std::size_t>& order,
                                                             std::size_t from) const {
@@ -997,14 +1068,7 @@ private:
         const VectorXd error = inverted.inverse * projection.weighted;
         GroupTest test = judged(GroupKind::fixture_place, projection.weighted.dot(error) / (scale * scale),
                                 inverted.rank, order.size());
-        const Eigen::MatrixX3d points = reflectors_about_their_centre();
-        const double lever = points.rowwise().norm().mean();
-        double squares = 0.0;
-        for (Index m = 0; m < points.rows(); ++m) {
-            const Eigen::Vector3d turn = error.tail<3>() / lever;
-            squares += (error.head<3>() + turn.cross(points.row(m).transpose())).squaredNorm();
-        }
-        test.estimate = std::sqrt(squares / static_cast<double>(points.rows()));
+        test.estimate = size_of_error(test, error, adjustment_.measurement().fixture);
         // Of a motion in the same direction: what the stations take up is hardly seen, and would make a mean of all useless.
         if (test.chi_square > 0.0) {
             test.minimal_detectable =
@@ -1014,8 +1078,7 @@ private:
     }
     [[nodiscard]] const std::vector<Visit>& visits() const { return adjustment_.visits(); }
     [[nodiscard]] Eigen::MatrixX3d reflectors_about_their_centre() const {
-        const Eigen::MatrixX3d& points = adjustment_.measurement().fixture;
-        return points.rowwise() - points.colwise().mean();
+        return about_their_centre(adjustment_.measurement().fixture);
     }
 
     /// Drifts that are tested: columns with the value -1/2 at the first visit and 1/2 at the last one.
@@ -1089,7 +1152,8 @@ private:
         const auto consider = [&](std::optional<GroupTest> test, const std::vector<VisitEffects::Column>& columns) {
             if (test) {
                 test->family = count;
-                take(best, {*test, [this, columns] { visits_.take_away(columns); }});
+                take(best, {*test, [this, columns] { visits_.take_away(columns); },
+                            [this, columns] { return effect_of_columns(columns); }});
             }
         };
         for (std::size_t k = 0; k < all.each.size(); ++k) {
@@ -1155,10 +1219,12 @@ private:
                                     2 * static_cast<std::size_t>(most) * measurement.stations.size());
             test.station = j;
             test.estimate = worst.steps;
-            take(best, {test, [this, effect = std::move(worst.effect), j] {
+            take(best, {test,
+                        [this, effect = worst.effect, j] {
                             visits_.take_away(effect, 1);
                             moved_[j] = true;
-                        }});
+                        },
+                        same(worst.effect)});
         }
         return best;
     }
@@ -1371,6 +1437,35 @@ double share_of_level(GroupKind kind) {
             return 0.005;
     }
     return 0.0;
+}
+
+double size_of_error(const GroupTest& test, const VectorXd& unknowns, const Eigen::MatrixX3d& fixture) {
+    switch (test.kind) {
+        case GroupKind::angle_index:  // it is there or it is not: of whole steps
+        case GroupKind::succession:
+        case GroupKind::station:
+            return test.estimate;
+        case GroupKind::visit_pose:
+            return (test.columns * unknowns).norm() /
+                   std::sqrt(static_cast<double>((test.columns.array() != 0.0).rowwise().any().count()));
+        case GroupKind::station_place:
+        case GroupKind::reflector:
+        case GroupKind::reflector_at_angles:
+        case GroupKind::reflector_from_visit:
+            return unknowns.norm();
+        case GroupKind::fixture_place: {
+            const Eigen::MatrixX3d points = about_their_centre(fixture);
+            const Eigen::Vector3d turn = unknowns.tail<3>() / points.rowwise().norm().mean();
+            double squares = 0.0;
+            for (Index m = 0; m < points.rows(); ++m) {
+                squares += (unknowns.head<3>() + turn.cross(points.row(m).transpose())).squaredNorm();
+            }
+            return std::sqrt(squares / static_cast<double>(points.rows()));
+        }
+        default:
+            return unknowns.size() == 1 ? unknowns[0]
+                                        : unknowns.norm() / std::sqrt(static_cast<double>(unknowns.size()));
+    }
 }
 
 Eigen::VectorXd scale_errors_of_stations(const JointAdjustment& adjustment, const NormalEquations& normal,

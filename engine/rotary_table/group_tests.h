@@ -62,14 +62,28 @@ struct GroupTest {
     /// of the station are off by, nearly 1; angle index: steps. Succession: autocorrelation coefficient of lag 1. Station: ratio of the
     /// standard deviations of its visits and of the others.
     double estimate = 0.0;
+    double u = 0.0;  ///< standard uncertainty of `estimate` beside the other suspicious groups; 0: told alone
     double minimal_detectable = 0.0;  ///< found with a probability of 80 %, in the unit of `estimate`; 0: not stated
     bool suspicious = false;
     /// False of an error whose size no adjustment without it confirms: `estimate` is that of a linear model that does not hold
     /// so far, and is not told.
     bool is_settled = true;
+    /// False of an error whose size is not determined beside the other suspicious ones: `estimate` is that of this error alone, and
+    /// is not told.
+    bool is_determined = true;
     /// Of drift and change: visits of the adjustment, and what all distances of each are off by, [m].
     std::vector<std::pair<std::size_t, double>> errors = {};
+    /// Where suspicious, of a kind that names a cause: what each unknown of the error does to each distance of the measurement,
+    /// distances×unknowns. 0 of distances that were not active.
+    Eigen::MatrixXd columns = {};
+
+    [[nodiscard]] bool has_size() const { return is_settled && is_determined; }
 };
+
+/// `estimate` of a group whose unknowns have these values.
+/// \param fixture  coordinates of the points, [m]
+[[nodiscard]] double size_of_error(const GroupTest& test, const Eigen::VectorXd& unknowns,
+                                   const Eigen::MatrixX3d& fixture);
 
 /// What all distances of a visit deviate by from what all other visits say.
 struct VisitDeviation {

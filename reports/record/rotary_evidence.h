@@ -23,8 +23,8 @@ struct GroupTestRow {
     Shown<double> p_value = {1.0};
     std::string station = {}, reflector = {}, pass = {};  ///< "" where the kind has none
     Shown<std::optional<double>> angle_deg = {};
-    std::optional<double> to_angle_deg = {};  ///< of a part of the turn, which begins at angle_deg
-    Shown<double> estimate = {};
+    std::optional<double> to_angle_deg = {};               ///< of a part of the turn, which begins at angle_deg
+    Shown<std::optional<double>> estimate = {};            ///< none: not determined beside the other suspicious groups
     std::string unit = "um";                               ///< of the estimate: "um", "ppm", or "1" for a ratio
     Shown<std::optional<double>> minimal_detectable = {};  ///< in `unit`; none: not stated
     bool suspicious = false;

@@ -185,7 +185,8 @@ void group_table(CertificateBuilder& builder, const Wording& words, const Rotary
             return printed.empty() ? Text() : words.number(printed) + unit;
         };
         rows.push_back({words("value", "group_kind", row.kind), std::to_string(row.tests), subject_of(row, words),
-                        row.test_value.text, row.critical_value.text, with_unit(row.estimate.text),
+                        row.test_value.text, row.critical_value.text,
+                        row.estimate.number ? with_unit(row.estimate.text) : words("value", "size_not_determined"),
                         with_unit(row.minimal_detectable.text),
                         words("value", row.suspicious ? "suspicious" : "not_suspicious")});
     }

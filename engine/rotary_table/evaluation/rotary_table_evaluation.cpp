@@ -20,6 +20,7 @@
 #include "engine/rotary_table/evaluation/scaled_lengths.h"
 #include "engine/rotary_table/evaluation/settled_errors.h"
 #include "engine/rotary_table/evaluation/stated_positions.h"
+#include "engine/rotary_table/evaluation/told_errors.h"
 #include "engine/rotary_table/geometry_check.h"
 #include "engine/rotary_table/group_notes.h"
 #include "engine/rotary_table/start/start_search.h"
@@ -569,7 +570,7 @@ ErrorModel scale_errors(const std::vector<GroupTest>& told) {
     };
     const auto sizes = [stations](const JointAdjustment& at, const NormalEquations& normal,
                                   const BorderedCovariance& covariance) {
-        return scale_errors_of_stations(at, normal, covariance, stations);
+        return SizesLeft{scale_errors_of_stations(at, normal, covariance, stations)};
     };
     return {std::ssize(told), take_off, sizes};
 }
@@ -581,7 +582,7 @@ ErrorModel scale_error_of_coordinates() {
                 measurement.fixture /= 1.0 + sizes[0];
             },
             [](const JointAdjustment& at, const NormalEquations& normal, const BorderedCovariance& covariance) {
-                return Eigen::VectorXd::Constant(1, scale_error_of_fixture(at, normal, covariance));
+                return SizesLeft{Eigen::VectorXd::Constant(1, scale_error_of_fixture(at, normal, covariance))};
             }};
 }
 
@@ -684,6 +685,11 @@ GroupTests with_scale_errors(GroupTests groups, const GroupTest* first, std::vec
     const bool is_first = first == groups.tests.data();
     if (settled ? !is_first && !explains_nearly_all(*settled, adjustment)
                 : !is_first || std::abs(first->estimate) <= k_linear_scale) {
+        // What is told before it may be why it does not settle alone.
+        for (GroupTest& test : groups.tests) {
+            test.is_determined = test.is_determined && (!test.suspicious || test.kind != first->kind ||
+                                                        std::abs(test.estimate) <= k_linear_scale);
+        }
         return groups;
     }
     for (std::size_t k = 0; k < told.size(); ++k) {
@@ -741,6 +747,87 @@ GroupTests without_scale_errors(GroupTests groups, const JointAdjustment& adjust
     return with_scale_errors(std::move(groups), first, std::move(told), settled, std::move(others), adjustment);
 }
 
+/// Whether a group is suspicious and names a cause that can be taken off.
+bool is_told_error(const GroupTest& test) {
+    return test.suspicious && test.columns.size() > 0;
+}
+
+bool is_same_group(const GroupTest& a, const GroupTest& b) {
+    return a.kind == b.kind && a.station == b.station && a.reflector == b.reflector && a.pass == b.pass &&
+           a.angle == b.angle && a.last_angle == b.last_angle;
+}
+
+/// Groups with the sizes of those that are told: of one adjustment with all of them. What the others explain is not told, and a
+/// scale that shows itself without them is.
+/// \param told  that the search begins with
+/// \param at_once  what is added in one round
+/// \return none where it comes to no end
+std::optional<GroupTests> with_sizes_from(GroupTests groups, std::vector<GroupTest> told, std::size_t at_once,
+                                          const JointAdjustment& adjustment, const GroupSetting& setting) try {
+    constexpr int k_most_rounds = 8;
+    for (int round = 0; round < k_most_rounds; ++round) {
+        const auto settled = settle_with_all(errors_of_groups(told), adjustment, setting);
+        if (!settled) {
+            return std::nullopt;
+        }
+        JointAdjustment own = *settled->without;
+        const GroupTests beside =
+            groups_at_own_variances(own, setting.estimated, setting.stochastic, setting.options, setting.group_options);
+        const bool are_all = take_joint_sizes(told, adjustment.visits(), settled->taken_off, own,
+                                              std::max(1.0, beside.scale), setting.group_options.chi_square_upper_tail);
+        std::size_t added = 0;
+        for (const GroupTest& test : beside.tests) {
+            if (!is_told_error(test) || added == at_once) {
+                continue;
+            }
+            if (std::ranges::any_of(told, [&](const GroupTest& of) { return is_same_group(of, test); })) {
+                return std::nullopt;  // the same error once more is none that settled
+            }
+            // A scale is what the linearised model shows as something else, and hides. Other kinds it would have shown: beside a
+            // cause that is not the true one they are parts of what that leaves.
+            if (test.kind == GroupKind::fixture_scale || test.kind == GroupKind::station_scale) {
+                told.push_back(test);
+                ++added;
+            }
+        }
+        if (are_all && added == 0) {
+            put_first(groups.tests, told, std::nullopt);
+            return groups;
+        }
+    }
+    return std::nullopt;
+} catch (const gum::NoResultError&) {
+    return std::nullopt;  // a check, which the result does not need
+}
+
+/// The same from all that the linearised model shows, or else from the first of it and one after the other. No size is told of several
+/// where neither comes to an end.
+GroupTests with_joint_sizes(GroupTests groups, const JointAdjustment& adjustment, const GroupSetting& setting) {
+    std::vector<GroupTest> told;
+    std::ranges::copy_if(groups.tests, std::back_inserter(told), is_told_error);
+    if (told.empty()) {
+        return groups;
+    }
+    for (const bool one_by_one : {false, true}) {
+        if (one_by_one) {
+            told.resize(1);
+        }
+        if (auto found = with_sizes_from(groups, told, one_by_one ? 1 : groups.tests.size(), adjustment, setting)) {
+            // One that is alone has its size already.
+            const bool is_as_before = std::ranges::count_if(groups.tests, is_told_error) == 1 &&
+                                      std::ranges::count_if(found->tests, is_told_error) == 1 &&
+                                      is_same_group(groups.tests.front(), found->tests.front());
+            return is_as_before ? std::move(groups) : std::move(*found);
+        }
+    }
+    if (std::ranges::count_if(groups.tests, is_told_error) > 1) {
+        for (GroupTest& test : groups.tests) {
+            test.is_determined = test.is_determined && !is_told_error(test);
+        }
+    }
+    return groups;
+}
+
 /// Groups at given weights where one is nearly suspicious: of few stations it moves most visits, and the robust scale of all of them
 /// hides it. By how much chi-square falls without it, at the scale that is left then. None where it is not suspicious so either.
 std::optional<GroupTests> groups_at_scale_without(const GroupTest& near, const GroupTests& groups,
@@ -783,21 +870,21 @@ bool names_a_cause(const GroupTests& groups) {
 /// Tests of the groups of an adjustment. Its variances were estimated with the group in, which makes them large and all
 /// test values small: where a group is nearly suspicious, all are tested once more at the variances without it.
 GroupTests groups_of(const JointAdjustment& adjustment, const NormalEquations& normal,
-                     const BorderedCovariance& covariance, const EstimatedComponents& estimated,
-                     const StochasticModel& stochastic, const EvaluationOptions& options,
-                     const GroupTestOptions& group_options, const std::vector<bool>& but_gross) {
-    const GroupSetting setting{estimated, stochastic, options, group_options, but_gross};
+                     const BorderedCovariance& covariance, const GroupSetting& setting) {
+    const auto& [estimated, stochastic, options, group_options, but_gross] = setting;
     GroupTests groups =
         without_scale_errors(test_groups(adjustment, normal, covariance, group_options), adjustment, setting);
     groups = without_fixture_scale(std::move(groups), adjustment, setting);
     const GroupTest* const near = nearly_suspicious(groups, group_options);
     if (near == nullptr || names_a_cause(groups)) {
-        return groups;
+        return with_joint_sizes(std::move(groups), adjustment, setting);
     }
     try {
         if (!estimated.length && !estimated.table) {
-            return groups_at_scale_without(*near, groups, adjustment, normal, stochastic, options, group_options)
-                .value_or(groups);
+            return with_joint_sizes(
+                groups_at_scale_without(*near, groups, adjustment, normal, stochastic, options, group_options)
+                    .value_or(groups),
+                adjustment, setting);
         }
         JointAdjustment again = adjustment;
         const StochasticModel smaller = variances_without(*near, adjustment, estimated, stochastic, options);
@@ -809,7 +896,7 @@ GroupTests groups_of(const JointAdjustment& adjustment, const NormalEquations& n
             without_scale_errors(test_groups(again, at, at.bordered_covariance(), group_options), again, of_again);
         closer = without_fixture_scale(std::move(closer), again, of_again);
         if (std::ranges::any_of(closer.tests, &GroupTest::suspicious)) {
-            return closer;
+            return with_joint_sizes(std::move(closer), again, of_again);
         }
     } catch (const gum::NoResultError&) {
         return groups;  // a check, which the result does not need
@@ -829,8 +916,9 @@ std::optional<GroupTests> groups_with_all(const JointAdjustment& adjustment, con
         check.solver.step_tolerance = std::max(options.solver.step_tolerance, k_step_of_many_outliers);
         check.component_tolerance = std::max(options.component_tolerance, k_component_of_a_check);
         iteration.settle_exactly(whole, stochastic, check);
-        return groups_of(whole, *iteration.normal, iteration.covariance, iteration.estimated(), stochastic, options,
-                         group_options, active);
+        const EstimatedComponents components = iteration.estimated();
+        return groups_of(whole, *iteration.normal, iteration.covariance,
+                         {components, stochastic, options, group_options, active});
     } catch (const gum::NoResultError&) {
         return std::nullopt;
     }
@@ -1598,8 +1686,9 @@ Adjusted adjust_and_test(const RotaryTableMeasurement& measurement, StartSearch&
             }
             const bool of_all = groups.has_value();
             if (!groups) {
-                groups = groups_of(at, *of.normal, of.covariance, of.estimated(), weights, options, group_options,
-                                   but_gross);
+                const EstimatedComponents components = of.estimated();
+                groups =
+                    groups_of(at, *of.normal, of.covariance, {components, weights, options, group_options, but_gross});
             }
             return TestedGroups{std::move(*groups), of_all};
         };

@@ -21,7 +21,7 @@ std::unique_ptr<JointAdjustment> adjusted_without(const RotaryTableMeasurement& 
     return without->adjustment().refine(solver).converged ? std::move(without) : nullptr;
 }
 
-Eigen::VectorXd sizes_left(const ErrorModel& model, const JointAdjustment& without) {
+SizesLeft sizes_left(const ErrorModel& model, const JointAdjustment& without) {
     const NormalEquations normal = without.adjustment().linearise();
     return model.sizes(without, normal, normal.bordered_covariance());
 }
@@ -34,7 +34,7 @@ std::optional<Eigen::VectorXd> sizes_at_fixed_temperatures(const ErrorModel& mod
     fixed.u_temperature.setZero();
     fixed.u_expansion = 0.0;
     const std::unique_ptr<JointAdjustment> at = adjusted_without(fixed, adjustment, stochastic, solver);
-    return at ? std::optional(sizes_left(model, *at)) : std::nullopt;
+    return at ? std::optional(sizes_left(model, *at).sizes) : std::nullopt;
 }
 
 }  // namespace
@@ -43,34 +43,45 @@ std::optional<SettledErrors> settle_errors(const ErrorModel& model, const JointA
                                            const StochasticModel& stochastic, const SolverOptions& solver) {
     constexpr int k_most_corrections = 10;
     constexpr double k_settled = 1e-3;  // of a size: it is told with three digits
+    constexpr double k_settled_of_u = 1e-2;
     const std::optional<Eigen::VectorXd> first = sizes_at_fixed_temperatures(model, adjustment, stochastic, solver);
     if (!first) {
         return std::nullopt;
     }
-    SettledErrors result{*first, nullptr, nullptr};
-    Eigen::VectorXd before, left_before;  // the sizes that were taken off then, and what was left
+    SettledErrors result{*first, *first, nullptr, nullptr};
+    Eigen::VectorXd part;            // of each size: of those that are counted in different units none decides
+    Eigen::VectorXd change, before;  // the last change, and what was left before it, in parts
+    Eigen::MatrixXd inverse =
+        Eigen::MatrixXd::Identity(model.count, model.count);  // of what a size takes from what is left
     for (int k = 0; k < k_most_corrections; ++k) {
         auto corrected = std::make_unique<RotaryTableMeasurement>(adjustment.measurement());
         model.take_off(*corrected, result.sizes);
+        result.taken_off = result.sizes;
         result.without = adjusted_without(*corrected, adjustment, stochastic, solver);
         result.measurement = std::move(corrected);
         if (!result.without) {
             return std::nullopt;
         }
-        const Eigen::VectorXd left = sizes_left(model, *result.without);
-        Eigen::VectorXd change = left;
-        for (Eigen::Index j = 0; j < model.count && k > 0; ++j) {
-            if (left_before[j] != left[j]) {
-                change[j] = left[j] * (result.sizes[j] - before[j]) / (left_before[j] - left[j]);
+        const SizesLeft found = sizes_left(model, *result.without);
+        if (k == 0) {
+            part = found.u.unaryExpr([](double u) { return u > 0.0 ? u : 1.0; });
+        }
+        const Eigen::VectorXd left = found.sizes.cwiseQuotient(part);
+        if (k > 0) {
+            const Eigen::VectorXd taken = inverse * (before - left);
+            if (const double of_change = change.dot(taken); of_change != 0.0) {
+                inverse += (change - taken) * (change.transpose() * inverse) / of_change;
             }
         }
-        before = result.sizes;
-        left_before = left;
-        result.sizes += change;
+        change = inverse * left;
+        before = left;
+        const Eigen::VectorXd sizes = change.cwiseProduct(part);
+        result.sizes += sizes;
         if (!result.sizes.allFinite()) {
             return std::nullopt;
         }
-        if ((change.array().abs() <= k_settled * result.sizes.array().abs()).all()) {
+        const Eigen::ArrayXd tolerance = (k_settled * result.sizes.array().abs()).max(k_settled_of_u * found.u.array());
+        if ((sizes.array().abs() <= tolerance).all()) {
             return result;
         }
     }

@@ -10,18 +10,24 @@
 
 namespace gumcert::engine {
 
+/// What an adjustment says of the sizes of an error, linearised at its solution.
+struct SizesLeft {
+    Eigen::VectorXd sizes;
+    Eigen::VectorXd u = Eigen::VectorXd::Zero(sizes.size());  ///< standard uncertainties; 0: not asked for
+};
+
 /// An error of a measurement that is looked for by the adjustment without it.
 struct ErrorModel {
     Eigen::Index count = 1;  ///< of its sizes
     /// Takes errors of these sizes off a measurement.
     std::function<void(RotaryTableMeasurement&, const Eigen::VectorXd&)> take_off;
-    /// What an adjustment says of their sizes, linearised at its solution.
-    std::function<Eigen::VectorXd(const JointAdjustment&, const NormalEquations&, const BorderedCovariance&)> sizes;
+    std::function<SizesLeft(const JointAdjustment&, const NormalEquations&, const BorderedCovariance&)> sizes;
 };
 
 /// Sizes of an error, and the measurement without it.
 struct SettledErrors {
     Eigen::VectorXd sizes;
+    Eigen::VectorXd taken_off;                            ///< the sizes before the last correction
     std::unique_ptr<RotaryTableMeasurement> measurement;  ///< of the adjustment
     std::unique_ptr<JointAdjustment> without;             ///< at its solution
 };
@@ -31,8 +37,9 @@ struct SettledErrors {
 /// that the linearised size is half as large again, and that the adjustment without it comes to no end. The first size is
 /// therefore that of fixed temperatures, where the model is nearly linear; the others are those of the whole model, by
 /// secants.
-/// \return none where an adjustment does not converge, or the sizes do not settle to a thousandth: then nothing is known of
-///         them but that they are there
+/// Several sizes by Broyden's method (C. Broyden, Math. Comp. 19, 1965, 577–593), which of one is that of secants.
+/// \return none where an adjustment does not converge, or the sizes do not settle to a thousandth, or to a hundredth of their
+///         standard uncertainty: then nothing is known of them but that they are there
 [[nodiscard]] std::optional<SettledErrors> settle_errors(const ErrorModel& model, const JointAdjustment& adjustment,
                                                          const StochasticModel& stochastic,
                                                          const SolverOptions& solver);

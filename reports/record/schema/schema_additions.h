@@ -66,6 +66,7 @@ inline constexpr SentenceOfValue k_sentences_of_values[] = {
     {"group_test/to_angle_deg",
      "of a reflector that stands elsewhere in a part of the turn: the last angle of the part that begins "
      "at angle_deg"},
+    {"group_test/estimate", "null: not determined beside the other suspicious groups"},
     {"group_test/minimal_detectable", "found with a probability of 80 %"},
     {"group_tests/alpha",
      "probability that a sound measurement makes any group of any kind suspicious, or is warned of its fixture"},

@@ -170,6 +170,24 @@ TEST(GroupNotes, TellNoSizeThatTheAdjustmentWithoutTheErrorDoesNotConfirm) {
     }
 }
 
+/// A size that the other suspicious groups do not let determine is none, of any kind that has one.
+TEST(GroupNotes, TellNoSizeThatIsNotDeterminedBesideTheOthers) {
+    for (const GroupKind kind :
+         {GroupKind::visit_length, GroupKind::visit_pose, GroupKind::dead_path_change, GroupKind::station_place,
+          GroupKind::pair_length, GroupKind::drift, GroupKind::reflector, GroupKind::reflector_at_angles,
+          GroupKind::reflector_from_visit, GroupKind::fixture_scale, GroupKind::station_scale, GroupKind::fixture_place,
+          GroupKind::expansion}) {
+        GroupTest test = suspicious(kind);
+        test.station = test.reflector = test.pass = test.angle = test.last_angle = 0;
+        test.estimate = 776e-6;
+        test.is_determined = false;
+        const std::string what = group_notes({.tests = {test}, .visits = {}}, two_stations())[0].what;
+        EXPECT_THAT(what, HasSubstr("by how much could not be determined beside the other suspected errors"));
+        EXPECT_THAT(what, testing::Not(HasSubstr("776")));
+        EXPECT_THAT(what, testing::Not(HasSubstr("µm")));
+    }
+}
+
 TEST(GroupNotes, SayNothingOfGroupsThatAreNotSuspicious) {
     GroupTest sound = suspicious(GroupKind::drift);
     sound.suspicious = false;

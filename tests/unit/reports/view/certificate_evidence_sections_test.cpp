@@ -103,6 +103,8 @@ TEST(EvidenceSections, NameTheGroupWithTheLargestTestValue) {
     ASSERT_EQ(rows.size(), 4U);
     EXPECT_THAT(rows[0], ElementsAre("distances of a visit, one error in common", "216", "station P2, pass P2-1, 20°",
                                      "61.2", "21.2", "4.9 µm", "1.8 µm", "not suspicious"));
+    record.rotary->group_tests->kinds.front().estimate = {};
+    EXPECT_EQ(rows_of(certificate_view(record, Wording(evidence_wording())), "group-tests")[0][5], "not determined");
     EXPECT_EQ(rows[1][2], "all stations");
     EXPECT_EQ(rows[1][6], "–");
     EXPECT_EQ(rows[1][7], "suspicious");
