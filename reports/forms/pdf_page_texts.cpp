@@ -177,9 +177,12 @@ CodeTexts code_texts(Object font, Unpacker& unpacker) {
 }
 
 bool is_left_out(std::string_view character) {
-    return character == " " || character == std::string_view(&k_end_of_drawn_text, 1) || character == "\n" ||
-           character == "\t" || character == "\u00A0" || character == "\u200B" || character == "\u202F" ||
-           character == "-" || character == "\u00AD" || character == "\u2010" || character == "\u2011";
+    if (character.size() == 1) {  // most are, and each is asked for
+        const char c = character.front();
+        return c == ' ' || c == k_end_of_drawn_text || c == '\n' || c == '\t' || c == '-';
+    }
+    return character == "\u00A0" || character == "\u200B" || character == "\u202F" || character == "\u00AD" ||
+           character == "\u2010" || character == "\u2011";
 }
 
 /// Without blanks and hyphens.
@@ -245,7 +248,9 @@ std::string text_of_codes(const std::vector<DrawnCodes>& codes, const Object& re
         // Two bytes a code (Identity-H).
         for (std::size_t i = 0; font != nullptr && i + 1 < drawn.codes.size(); i += 2) {
             const auto found = font->find(code_of(std::string_view(drawn.codes).substr(i, 2)));
-            text += found == font->end() ? "" : found->second;
+            if (found != font->end()) {
+                text += found->second;
+            }
             if (text.size() > most) {
                 refuse_content("its pages have more than 256 MiB of text");
             }

@@ -98,6 +98,26 @@ std::string form_of(const json& cell, bool first, const std::set<std::string>& l
     return seen_characters(words) <= k_short ? "short" : has_long_word(words) ? "long" : "words";
 }
 
+/// Whether a cell is one line of the height of any other, at any width. A short text has no place at which a line may end: behind a hyphen,
+/// a slash or a bar it may (Unicode Standard Annex #14); Chinese has another font, and other heights.
+bool is_one_line(const json& cell) {
+    const std::string_view form = cell.at("form").get_ref<const std::string&>();
+    if (form == "words" || form == "long" || !cell.at("also").empty()) {
+        return false;
+    }
+    const std::string_view words = cell.at("text").get_ref<const std::string&>();
+    for (std::size_t i = 0; i < words.size();) {
+        const auto [code, bytes] = text::decode_utf8(words, i);
+        const bool may_end_a_line = code < 0x80 ? std::string_view("-/|?!\t\n").find(words[i]) != std::string_view::npos
+                                                : code == 0xAD || (code >= 0x2000 && code <= 0x2029);
+        i += std::max<std::size_t>(bytes, 1);
+        if (code >= 0x2E80 || (form == "short" && may_end_a_line && i < words.size())) {
+            return false;
+        }
+    }
+    return true;
+}
+
 /// The two longest texts of a column; of equal ones those that come first.
 class Longest {
 public:
@@ -131,9 +151,11 @@ void typeset(json& table, const std::set<std::string>& letters) {
     std::vector<std::size_t> most(columns.size());
     for (json& row : table.at("rows")) {
         json& cells = row.at("cells");
+        bool is_line = row.at("kind") != "closing";  // that one is bold
         for (std::size_t c = 0; c < cells.size(); ++c) {
             json& cell = cells[c];
             cell["form"] = form_of(cell, c == 0, letters);
+            is_line = is_line && is_one_line(cell);
             if (c >= columns.size()) {
                 continue;
             }
@@ -145,6 +167,7 @@ void typeset(json& table, const std::set<std::string>& letters) {
                 longest[c].add(words, length);
             }
         }
+        row["line"] = is_line ? "one" : "";
     }
     std::size_t digits = 0;
     for (std::size_t c = 0; c < columns.size(); ++c) {

@@ -9,6 +9,7 @@ namespace gumcert::reports {
 /// - `form` of a cell: "digits", a number in one piece; "number", another one; "letter", a letter that is a symbol, in the first
 ///   column; "short", words of 12 characters at most, which stay in one line; "long", with a word of 30 characters or more;
 ///   "words", any other
+/// - `line` of a row: "one" where it is one line of the height of a number at any width, else ""
 /// - `longest` of a column: the two longest of its numbers where it is one of numbers, else of its texts
 /// - `digits` of a table: characters of the longest number of each column, together
 [[nodiscard]] nlohmann::json with_typeset_tables(nlohmann::json view);

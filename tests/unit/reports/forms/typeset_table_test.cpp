@@ -56,6 +56,32 @@ TEST(TypesetTable, TellsTheFormOfACell) {
     EXPECT_EQ(form_of_cell(table_cell(std::string(29, 'b') + " " + std::string(29, 'b'), "left")), "words");
 }
 
+std::string line_of_row(const std::string& text, const std::string& align = "left", const std::string& kind = "plain") {
+    json table = {{"columns", json::array()}, {"rows", {{{"kind", kind}, {"cells", {table_cell(text, align)}}}}}};
+    return with_typeset_tables(
+        {{"sections",
+          {{{"blocks", {{{"table", {table}}}}}}}}})["sections"][0]["blocks"][0]["table"][0]["rows"][0]["line"];
+}
+
+TEST(TypesetTable, TellsRowsThatAreOneLineAtAnyWidth) {
+    for (const char* text : {"", "normal", "U_x[2]", "mg g", "µm", "k = 2", "–", "5-"}) {
+        EXPECT_EQ(line_of_row(text), "one") << text;
+    }
+    for (const char* text :
+         {"DMM-04", "mg/g", "1–2", "a|b", "合格", "soft\u00ADhyphen", "thin\u2009space", "more than twelve"}) {
+        EXPECT_EQ(line_of_row(text), "") << text;
+    }
+    EXPECT_EQ(line_of_row("−3.127\u00A0×\u00A010⁻⁷\u00A0mg/(kg/m³)", "number"), "one") << "a number does not break";
+    EXPECT_EQ(line_of_row("12\u00A0公斤", "number"), "") << "another font";
+    EXPECT_EQ(line_of_row("12.5", "number", "closing"), "") << "bold";
+    json both = table_cell("pass", "left");
+    both["also"] = {{{"text", "bestanden"}}};
+    EXPECT_EQ(typeset_table({{both}}, {"left"})["rows"][0]["line"], "");
+    EXPECT_EQ(typeset_table({{table_cell("1"), table_cell("more than twelve", "left")}},
+                            {"number", "left"})["rows"][0]["line"],
+              "");
+}
+
 TEST(TypesetTable, NamesTheLongestOfAColumn) {
     const json table = typeset_table({{table_cell("one", "left"), table_cell("1.5"), table_cell("–", "left")},
                                       {table_cell("three", "left"), table_cell("−12.5", "number", "00"),
