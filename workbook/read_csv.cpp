@@ -25,21 +25,35 @@ bool ends_line(char c) {
     return c == '\n' || c == '\r';
 }
 
+/// Whether the comma at a place may be one of a number or of a sentence: "0,5", "Mass, drift".
+bool may_be_in_field(std::string_view text, std::size_t comma) {
+    const bool is_behind_digit = comma > 0 && is_digit(text[comma - 1]);
+    const char next = comma + 1 < text.size() ? text[comma + 1] : '\n';
+    return next == ' ' || (is_behind_digit && is_digit(next));
+}
+
+/// The separator that stands in most lines. A comma that may be in a field is none in a line that has another separator, so that lines
+/// of words below a table, "U = 0,5 mm", do not outvote its rows.
 char most_common_separator(std::string_view text) {
     std::array<std::size_t, 3> lines{};
     std::array<bool, 3> in_line{};
-    bool is_quoted = false;
+    bool has_comma_in_field = false, is_quoted = false;
     const auto count = [&] {
+        in_line[2] = in_line[2] || (has_comma_in_field && !in_line[0] && !in_line[1]);
         for (std::size_t i = 0; i < lines.size(); ++i) {
             lines[i] += in_line[i] ? 1U : 0U;
             in_line[i] = false;
         }
+        has_comma_in_field = false;
     };
-    for (const char c : text) {
+    for (std::size_t at = 0; at < text.size(); ++at) {
+        const char c = text[at];
         if (c == '"') {
             is_quoted = !is_quoted;
         } else if (!is_quoted && ends_line(c)) {
             count();
+        } else if (!is_quoted && c == ',' && may_be_in_field(text, at)) {
+            has_comma_in_field = true;
         } else if (!is_quoted) {
             for (std::size_t i = 0; i < lines.size(); ++i) {
                 in_line[i] = in_line[i] || c == k_separators[i];

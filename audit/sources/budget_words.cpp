@@ -1207,34 +1207,57 @@ std::optional<Statement> uncertainty_in_words(std::string_view name, std::string
     return is_standard || is_total || said.says_any() || has_tail ? std::optional(Statement::u_c) : std::nullopt;
 }
 
-/// What "U =" is a product of: "k·u_c", "2 · u(y)"; the number or "k". Empty where it is none, or something is added to it.
-std::string_view factor_of_u(std::string_view product) {
-    product = trimmed(product);
-    std::size_t symbol = 0;
-    for (const std::string_view k : {"k", "t_95", "t95", "t_p", "t"}) {
-        symbol = symbol == 0 && product.starts_with(k) ? k.size() : symbol;
-    }
-    const std::size_t factor = symbol > 0 ? symbol : product.find_first_not_of("0123456789.,");
-    if (factor == 0 || factor == std::string_view::npos || product.find_first_of("+|-/") != std::string_view::npos) {
-        return {};
-    }
-    std::string_view behind = product.substr(factor);
-    bool has_sign = false;
-    for (bool any = true; any;) {
-        any = false;
-        for (const std::string_view sign : {" ", "·", "×", "*", "⋅", "x "}) {
-            if (behind.starts_with(sign)) {
-                behind.remove_prefix(sign.size());
-                any = has_sign = true;
-            }
-        }
-    }
-    const bool is_u = behind == "u" || behind.starts_with("u_") || behind.starts_with("uc") || behind.starts_with("u(");
-    return has_sign && is_u ? product.substr(0, factor) : std::string_view();
-}
-
 constexpr std::string_view k_signs_of_product[] = {"·", "×", "*", "⋅", "x "};
 constexpr std::string_view k_signs_of_equality[] = {"=", "≅", "≈", "≃"};
+
+/// The symbol or number at the beginning that may be a coverage factor; empty where there is none.
+std::string_view leading_factor(std::string_view text) {
+    for (const std::string_view k : {"k", "t_95", "t95", "t_p", "t"}) {
+        if (text.starts_with(k)) {
+            return text.substr(0, k.size());
+        }
+    }
+    return text.substr(0, text.find_first_not_of("0123456789.,"));
+}
+
+/// What "U =" is a product of.
+struct FactorOfU {
+    std::string_view factor;  ///< the number or "k"; empty where it is no product
+    bool is_last = false;     ///< it stands behind u
+};
+
+/// Of "k·u_c", "2 · u(y)" or "u_c·k". Nothing where something is added to it.
+FactorOfU factor_of_u(std::string_view product) {
+    product = trimmed(product);
+    if (product.find_first_of("+|-/") != std::string_view::npos) {
+        return {};
+    }
+    const auto is_u = [](std::string_view text) {
+        return text == "u" || text.starts_with("u_") || text.starts_with("uc") || text.starts_with("u(");
+    };
+    if (is_u(product)) {
+        for (const std::string_view sign : k_signs_of_product) {
+            if (const std::size_t at = product.find(sign); at != std::string_view::npos) {
+                const std::string_view behind = trimmed(product.substr(at + sign.size()));
+                const std::string_view factor = leading_factor(behind);
+                return {.factor = factor == behind ? factor : std::string_view(), .is_last = true};
+            }
+        }
+        return {};
+    }
+    const std::string_view factor = leading_factor(product);
+    std::string_view behind = product.substr(factor.size());
+    bool has_sign = false;
+    const auto take = [&](std::string_view sign) {
+        const bool is_next = behind.starts_with(sign);
+        behind.remove_prefix(is_next ? sign.size() : 0);
+        has_sign = has_sign || is_next;
+        return is_next;
+    };
+    while (take(" ") || std::any_of(std::begin(k_signs_of_product), std::end(k_signs_of_product), take)) {
+    }
+    return {.factor = has_sign && is_u(behind) ? factor : std::string_view()};
+}
 
 /// What k is in a product of numbers.
 struct FactorInNumbers {
@@ -1243,49 +1266,69 @@ struct FactorInNumbers {
     bool is_open = false;         ///< one of the numbers is k, and nothing says which
 };
 
-/// 2 of "k · u(y) = 2 × 37.7 mg", as EA-4/02 writes U; of "k·u_c = 0.0651·2", too, where u is no k. Nothing where no product of
-/// numbers follows.
-FactorInNumbers factor_in_numbers(std::string_view product) {
-    const std::size_t sign = product.find('=');
-    std::string_view numbers = sign == std::string_view::npos ? std::string_view() : trimmed(product.substr(sign + 1));
-    const auto leading = [](std::string_view text) { return text.substr(0, text.find_first_not_of("0123456789.,")); };
-    const auto value_of = [](std::string_view digits) {
-        const std::optional<StatedNumber> number = read_number(std::string(digits), "");
-        return number ? number->value : 0.0;
-    };
-    const auto may_be_k = [](double number) { return number >= 1.0 && number <= 14.0; };
+bool may_be_k(double number) {
+    return number >= 1.0 && number <= 14.0;
+}
+
+double value_of(std::string_view digits) {
+    const std::optional<StatedNumber> number = read_number(std::string(digits), "");
+    return number ? number->value : 0.0;
+}
+
+/// Which of two factors is k, where the first one stands where k does in symbols.
+/// \param has_unit  the second one, which is u
+FactorInNumbers factor_of_two(std::string_view first, std::string_view second, bool has_unit) {
+    const double one = value_of(first), other = value_of(second);
+    if (may_be_k(one) && (has_unit || !may_be_k(other) || one == other)) {
+        return {.k = first};
+    }
+    if (has_unit || !may_be_k(other)) {
+        return {.k = {}, .is_open = true};
+    }
+    // Both may be k: the usual one before the other, else the first as in "k·u"; u_c of the rows tells whether it is.
+    if (!may_be_k(one)) {
+        return {.k = second};
+    }
     const auto is_usual_k = [](double number) {
         constexpr std::array k_usual{1.64, 1.645, 1.65, 1.96, 2.0, 2.576, 2.58, 3.0};
         return std::find(k_usual.begin(), k_usual.end(), number) != k_usual.end();
     };
+    const bool is_second = is_usual_k(other) && !is_usual_k(one);
+    return {.k = is_second ? second : first, .other = is_second ? first : second};
+}
+
+/// 2 of "k · u(y) = 2 × 37.7 mg", as EA-4/02 writes U; of "k·u_c = 0.0651·2", too, where u is no k. Nothing where no product of
+/// numbers follows.
+/// \param is_last  k stands behind u: "u_c·k = 37.7 mg · 2"
+FactorInNumbers factor_in_numbers(std::string_view product, bool is_last) {
+    const std::size_t equal = product.find('=');
+    const std::string_view numbers =
+        equal == std::string_view::npos ? std::string_view() : trimmed(product.substr(equal + 1));
+    const auto leading = [](std::string_view text) { return text.substr(0, text.find_first_not_of("0123456789.,")); };
     const std::string_view first = leading(numbers);
-    numbers = trimmed(numbers.substr(first.size()));
     for (const std::string_view times : k_signs_of_product) {
-        if (first.empty() || !numbers.starts_with(times)) {
+        const std::size_t at = numbers.find(times);
+        if (first.empty() || at == std::string_view::npos) {
             continue;
         }
-        const std::string_view rest = trimmed(numbers.substr(times.size())), second = leading(rest);
-        const double one = value_of(first), other = value_of(second);
+        const std::string_view unit = trimmed(numbers.substr(first.size(), at - first.size()));
+        const std::string_view rest = trimmed(numbers.substr(at + times.size())), second = leading(rest);
+        if (is_last && !second.empty() && unit.find('=') == std::string_view::npos) {
+            return factor_of_two(second, first, !unit.empty());
+        }
+        if (is_last || !unit.empty()) {
+            continue;
+        }
         if (second.empty()) {  // "2 × (0.05² + 0.03²)^(1/2)", "2 × √0.0034 mV"
             const bool is_sum = rest.starts_with('(') || rest.starts_with("√") || rest.starts_with("sqrt");
-            return {.k = is_sum && may_be_k(one) ? first : std::string_view(), .is_open = is_sum && !may_be_k(one)};
+            const bool is_k = may_be_k(value_of(first));
+            return {.k = is_sum && is_k ? first : std::string_view(), .is_open = is_sum && !is_k};
         }
         const std::string_view behind = trimmed(rest.substr(second.size()));
         const bool has_unit =
             !behind.empty() && std::none_of(std::begin(k_signs_of_equality), std::end(k_signs_of_equality),
                                             [behind](std::string_view sign) { return behind.starts_with(sign); });
-        if (may_be_k(one) && (has_unit || !may_be_k(other) || one == other)) {
-            return {.k = first};
-        }
-        if (has_unit || !may_be_k(other)) {
-            return {.k = {}, .is_open = true};
-        }
-        // Both may be k: the usual one before the other, else the first as in "k·u"; u_c of the rows tells whether it is.
-        if (!may_be_k(one)) {
-            return {.k = second};
-        }
-        const bool is_second = is_usual_k(other) && !is_usual_k(one);
-        return {.k = is_second ? second : first, .other = is_second ? first : second};
+        return factor_of_two(first, second, has_unit);
     }
     return {};
 }
@@ -1427,12 +1470,13 @@ std::optional<NamedStatement> statement_named(std::string_view name, bool may_ha
             with = at != std::string_view::npos && begins_with_coverage(behind.substr(at)) ? std::min(with, at) : with;
         }
         const std::string_view product = behind.substr(0, with);
-        if (const std::string_view factor = factor_of_u(product.substr(0, product.find('='))); !factor.empty()) {
+        if (const auto [factor, is_last] = factor_of_u(product.substr(0, product.find('='))); !factor.empty()) {
             const std::optional<NamedStatement> whole = whole_statement(symbol);
             if ((whole && whole->statement == Statement::U) || symbol.starts_with("U(") || symbol == "U_95") {
                 const std::string said(with == std::string_view::npos ? std::string_view() : behind.substr(with));
                 const bool is_symbol_of_k = factor.front() == 'k' || factor.front() == 't';
-                const FactorInNumbers k = is_symbol_of_k ? factor_in_numbers(product) : FactorInNumbers{.k = factor};
+                const FactorInNumbers k =
+                    is_symbol_of_k ? factor_in_numbers(product, is_last) : FactorInNumbers{.k = factor};
                 // Where the product has k and nobody can tell which number it is, k is stated all the same.
                 const std::string in_product(k.is_open && said.empty() ? trimmed(product) : std::string_view());
                 return NamedStatement{.statement = Statement::U,

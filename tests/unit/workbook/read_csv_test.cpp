@@ -47,6 +47,11 @@ TEST(ReadCsv, FindsTheSeparator) {
     EXPECT_EQ(cells_of_csv("Budget, May;\na;b\nc;d\n"), "A1=Budget, May A2=a B2=b A3=c B3=d");
     EXPECT_EQ(cells_of_csv("\"a;b\",c\n"), "A1=a;b B1=c") << "a separator in quotes is none";
     EXPECT_EQ(cells_of_csv("one"), "A1=one");
+    EXPECT_EQ(cells_of_csv("a;b\n1,5;2\nMass, drift;3\nu = 0,5\nU = 1,0\n"),
+              "A1=a B1=b A2=1.500000[1,5] B2=2.000000[2] A3=Mass, drift B3=3.000000[3] A4=u = 0,5 A5=U = 1,0")
+        << "lines of words below a table are none of its rows";
+    EXPECT_EQ(cells_of_csv("a; b\n1,5\n2,6\n"), "A1=a; b A2=1.000000[1] B2=5.000000[5] A3=2.000000[2] B3=6.000000[6]");
+    EXPECT_EQ(cells_of_csv("a; b, 1\nc, 2\nd, 3\n"), "A1=a; b B1=1.000000[1] A2=c B2=2.000000[2] A3=d B3=3.000000[3]");
 }
 
 TEST(ReadCsv, HonoursALineThatStatesTheSeparator) {

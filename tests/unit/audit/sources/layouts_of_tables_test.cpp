@@ -484,6 +484,29 @@ TEST(LayoutsOfTables, KOfAProductIsTheOneBesideUcOfTheRows) {
     }
 }
 
+/// "U = u_c·k": the factor stands behind u, whose number may have its unit.
+TEST(LayoutsOfTables, KOfAProductMayStandBehindU) {
+    const auto with = [](const std::string& line) {
+        return report_on("Quantity;Unit;Standard uncertainty\nReference;mg;1.30\nDrift;mg;0.90\nRounding;mg;0.40\n" +
+                         line + ";;\n");  // u_c = 1.631 mg
+    };
+    struct Case {
+        const char* line;
+        double k;
+    };
+    for (const Case& one :
+         {Case{"U = u_c·k = 1.63 · 3 = 4.89 mg", 3.0}, Case{"U = u_c · k = 1.63 mg · 2 = 3.26 mg", 2.0},
+          Case{"U = u(y) × 2.05 = 3.34 mg", 2.05}, Case{"U = uc*k = 1.63*1.96 = 3.20 mg", 1.96},
+          Case{"U = u_c·k = 1.65 · 1.63 = 2.69 mg", 1.65}}) {
+        const AuditReport report = with(one.line);
+        ASSERT_EQ(report.results.size(), 1U) << one.line;
+        EXPECT_EQ(report.results[0].claimed.k, one.k) << one.line;
+        EXPECT_FALSE(finds(report, "K01")) << one.line;
+    }
+    EXPECT_TRUE(finds(with("U = u_c·k = 1.63 mg · 2 = 4.89 mg"), "K01"));
+    EXPECT_TRUE(finds(with("U = u_c·k = 1.36 · 2 = 2.72 mg"), "K01"));
+}
+
 TEST(LayoutsOfTables, OfPublishedTables) {
     // JCGM 100:2008, table H.1: symbols and what they stand for in the heads.
     const std::string of_gum =
