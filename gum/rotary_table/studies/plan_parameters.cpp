@@ -32,6 +32,9 @@ constexpr std::size_t k_draws_of_a_plan = 2048;
 // Error motions of the drawn tables, so large that noise does not decide which angle is extreme.
 constexpr double k_drawn_linear = 1e-5;           // [m]
 constexpr double k_drawn_against_scatter = 10.0;  // of the angular ones against the scatter of a run
+// Angles, of all tables together, of which it is found out how much more E, R and A have than by the law of propagation. One table of
+// many angles shows it as well as several of few, and costs the square of their number.
+constexpr std::size_t k_angles_of_widened_tables = 240;
 
 /// A standard normal deviate that a number stands for.
 double deviate(std::uint64_t table, std::uint64_t number) {
@@ -60,6 +63,11 @@ private:
     const TableParameterModel& model_;
     const TableValues& values_;
 };
+
+int widened_tables(std::size_t angles) {
+    return static_cast<int>(
+        std::clamp(k_angles_of_widened_tables / angles, std::size_t{1}, static_cast<std::size_t>(k_drawn_tables)));
+}
 
 /// \param scatter  of a run
 TableValues drawn_table(const TableParameterModel& model, const RotaryTableMeasurement& layout, double scatter,
@@ -114,24 +122,29 @@ void add_positioning(const engine::TableParameters& parameters, const Eigen::Vec
 
 }  // namespace
 
-Eigen::VectorXd uncertainties_of_table(const TableParameterModel& model, const MotionCovariances& covariance,
-                                       const TableValues& values, bool scatter_stated, double coverage_probability) {
+TableUncertainties uncertainties_of_table(const TableParameterModel& model, const MotionCovariances& covariance,
+                                          const TableValues& values, const ScopeOfPositioning& scope,
+                                          double coverage_probability) {
     const std::vector<std::string>& names = model.parameters()->short_names();
     const auto is_stated = [&](const std::string& name) {
         const std::string letter = name.substr(0, 1);
         const bool is_planned = letter == "E" || letter == "R" || letter == "A";
-        return is_planned && (scatter_stated || !rests_on_scatter(name)) && stated_name(names, letter) == name;
+        return is_planned && (scope.scatter_stated || !rests_on_scatter(name)) && stated_name(names, letter) == name;
     };
     Propagation stated = propagate(ShownTable(model, values), coverage_probability);
     const TableDeviations deviations{.model = model,
                                      .reported = values.reported,
                                      .covariance = covariance,
                                      .positions = values.positions,
-                                     .u_deviation = model.rms_position_uncertainty(),
+                                     .u_deviation = scope.u_deviation,
                                      .draws = k_draws_of_a_plan};
     widen_ranges(stated, deviations);
-    widen_positioning(stated, deviations, is_stated);
-    return stated.standard_uncertainty;
+    TableUncertainties u{.clear = stated.standard_uncertainty, .stated = {}};
+    if (scope.widened) {
+        widen_positioning(stated, deviations, is_stated);
+    }
+    u.stated = stated.standard_uncertainty;
+    return u;
 }
 
 ExpectedParameters expected_parameters(const RotaryTableMeasurement& layout, const engine::StochasticModel& stochastic,
@@ -152,12 +165,25 @@ ExpectedParameters expected_parameters(const RotaryTableMeasurement& layout, con
     const bool scatter_stated = expected.share_of_the_noise <= k_largest_scatter_share * (1.0 + 1e-12);
     const MotionCovariances covariance =
         motion_covariances(engine::contributions_of(*table).covariance, layout.angles.size());
-    Eigen::VectorXd squares = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(model.outputs().size()));
+    const Eigen::VectorXd none = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(model.outputs().size()));
+    Eigen::VectorXd squares = none;          // of all tables, for clear extremes of positioning
+    Eigen::VectorXd squares_clear = none;    // of those whose extremes of positioning are looked at
+    Eigen::VectorXd squares_widened = none;  // and as an evaluation states them
+    const int widened = widened_tables(layout.angles.size());
     for (int number = 0; number < k_drawn_tables; ++number) {
-        const TableValues drawn = drawn_table(model, layout, std::sqrt(scatter), number);
-        squares += uncertainties_of_table(model, covariance, drawn, scatter_stated, coverage_probability).cwiseAbs2();
+        const TableUncertainties of = uncertainties_of_table(
+            model, covariance, drawn_table(model, layout, std::sqrt(scatter), number),
+            {.scatter_stated = scatter_stated, .u_deviation = expected.u_deviation, .widened = number < widened},
+            coverage_probability);
+        squares += of.clear.cwiseAbs2();
+        if (number < widened) {
+            squares_clear += of.clear.cwiseAbs2();
+            squares_widened += of.stated.cwiseAbs2();
+        }
     }
-    const Eigen::VectorXd u = (squares / k_drawn_tables).cwiseSqrt();
+    const Eigen::VectorXd more =
+        (squares_clear.array() > 0.0).select(squares_widened.array() / squares_clear.array(), 1.0).matrix();
+    const Eigen::VectorXd u = (squares.cwiseProduct(more) / k_drawn_tables).cwiseSqrt();
     const engine::TableParameterLayout& places = model.parameters()->layout();
     const auto add = [&](Eigen::Index index, bool angular, const std::optional<double>& target) {
         expected.all.push_back({model.outputs()[static_cast<std::size_t>(index)].name, angular, k * u[index], target});

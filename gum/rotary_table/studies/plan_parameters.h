@@ -39,15 +39,27 @@ struct TableValues {
     Eigen::VectorXd positions;  ///< of the visits, [rad]
 };
 
+/// Standard uncertainties of the parameters of a table, in the order of its model.
+struct TableUncertainties {
+    Eigen::VectorXd clear;   ///< with those of ISO 230-2 by the law of propagation alone
+    Eigen::VectorXd stated;  ///< as an evaluation states them
+};
+
+/// What is stated of the parameters of ISO 230-2.
+struct ScopeOfPositioning {
+    bool scatter_stated = false;  ///< R and A are stated
+    double u_deviation = 0.0;     ///< standard uncertainty of one deviation, [rad]
+    bool widened = true;          ///< for every angle that may be extreme; else `stated` is `clear`
+};
+
 /// Standard uncertainties of the parameters of a table that shows these values, as an evaluation states them: the ranges and the
 /// parameters of ISO 230-2 that a plan states for every angle that may be extreme, the others by the law of propagation.
 /// \param model           of the planned layout
 /// \param covariance      of the error motions
-/// \param scatter_stated  R and A are stated
 /// Accuracy: a few percent where the extremes are not clear, from the number of draws.
-[[nodiscard]] Eigen::VectorXd uncertainties_of_table(const engine::TableParameterModel& model,
-                                                     const MotionCovariances& covariance, const TableValues& values,
-                                                     bool scatter_stated, double coverage_probability);
+[[nodiscard]] TableUncertainties uncertainties_of_table(const engine::TableParameterModel& model,
+                                                        const MotionCovariances& covariance, const TableValues& values,
+                                                        const ScopeOfPositioning& scope, double coverage_probability);
 
 /// Tables that are drawn to see where the extremes of the parameters may lie.
 constexpr int k_drawn_tables = 10;
@@ -56,10 +68,11 @@ constexpr int k_drawn_tables = 10;
 /// before the measurement: it is the root mean square over drawn tables, by the functions with which `gumcert evaluate`
 /// states it, for every angle that may be extreme (gum/rotary_table/widened_extremes.h). Error motions are drawn large against
 /// what the measurement does not know of them, and one angle is independent of the next: of a smooth curve more angles lie near the
-/// extreme, and an evaluation states up to some tenths more (ADR 0090). Runs scatter by the repeatability of the table and the noise
-/// of one deviation. The draws are the same for every layout of as many angles.
+/// extreme, and an evaluation states up to some tenths more (ADR 0090). How much more E, R and A have than by
+/// the law of propagation is found from as many of the tables as have 240 angles together, one at least. Runs scatter by the
+/// repeatability of the table and the noise of one deviation. The draws are the same for every layout of as many angles.
 /// \param layout  with predicted lengths
-/// Accuracy: a few percent of U where the extremes are not clear, from the number of draws.
+/// Accuracy: a few percent of U where the extremes are not clear, from the number of draws; seven percent of R and A of 360 angles.
 [[nodiscard]] ExpectedParameters expected_parameters(const engine::RotaryTableMeasurement& layout,
                                                      const engine::StochasticModel& stochastic,
                                                      const ParameterTargets& targets, double k,

@@ -155,10 +155,13 @@ std::vector<std::pair<std::string, double>> planned_to_evaluated(const engine::s
         engine::SourceDegreesOfFreedom{k_infinite, k_infinite, k_infinite, k_infinite, k_infinite});
     const engine::TableParameterModel model(
         table, engine::transform_to_datum(layout, adjustment.poses(), adjustment.set_up(), layout.datum));
-    const Eigen::VectorXd u = uncertainties_of_table(
-        model, motion_covariances(engine::contributions_of(*table).covariance, layout.angles.size()),
-        {.reported = evaluated.reported.budget.value, .positions = evaluated.parameter_model->nominal_positions()},
-        evaluated.positioning.scatter_stated, request.coverage_probability);
+    const Eigen::VectorXd u =
+        uncertainties_of_table(
+            model, motion_covariances(engine::contributions_of(*table).covariance, layout.angles.size()),
+            {.reported = evaluated.reported.budget.value, .positions = evaluated.parameter_model->nominal_positions()},
+            {.scatter_stated = evaluated.positioning.scatter_stated, .u_deviation = model.rms_position_uncertainty()},
+            request.coverage_probability)
+            .stated;
     std::vector<std::pair<std::string, double>> ratios;
     const bool both = campaign_plan.both_senses;
     for (std::size_t i = 0; i < model.parameters()->short_names().size(); ++i) {
