@@ -44,6 +44,17 @@ Shown<double> shown_significant(double number, int digits) {
     return {number, gum::round_significant(number, digits)};
 }
 
+Shown<double> shown_plain(double number, int digits) {
+    Shown<double> shown = shown_significant(number, digits);
+    constexpr double k_least_plain = 1.0;
+    constexpr double k_most_plain = 1e15;
+    const double size = std::abs(number);
+    if (size > k_least_plain && size < k_most_plain && shown.text.find('E') != std::string::npos) {
+        shown.text = gum::round_to_quantum(number, 0);
+    }
+    return shown;
+}
+
 Shown<double> shown_to_quantum(double number, int decimals) {
     return {number, gum::round_to_quantum(number, decimals)};
 }

@@ -40,6 +40,9 @@ inline constexpr int k_digits_of_u = 2;
 
 /// A number and its text with so many significant digits.
 [[nodiscard]] Shown<double> shown_significant(double number, int digits);
+/// The same, and from the hundreds on all digits before the decimal sign: 0.35, 12, 113 where shown_significant() has 1.1E+2.
+/// For sizes that people compare with what they know of their set-up.
+[[nodiscard]] Shown<double> shown_plain(double number, int digits);
 /// A number and its text with so many decimals.
 [[nodiscard]] Shown<double> shown_to_quantum(double number, int decimals);
 /// A share, [1], and its text in percent.

@@ -82,10 +82,10 @@ reports::GroupTestRow group_row(const GroupTest& test, const RotaryTableMeasurem
     const auto [name_of_unit, unit] = unit_of_kind(test.kind);
     row.unit = name_of_unit;
     if (test.has_size()) {
-        row.estimate = shown_significant(test.estimate / unit, 2);
+        row.estimate = shown_plain(test.estimate / unit, 2);
     }
     if (test.minimal_detectable > 0.0) {
-        row.minimal_detectable = shown_significant(test.minimal_detectable / unit, 2);
+        row.minimal_detectable = shown_plain(test.minimal_detectable / unit, 2);
     }
     row.suspicious = test.suspicious;
     return row;

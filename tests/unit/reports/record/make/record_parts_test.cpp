@@ -16,6 +16,18 @@ TEST(RecordParts, ShowANumberUnroundedWithItsRoundedText) {
     EXPECT_EQ(statistic.text, "12.3");
 }
 
+TEST(RecordParts, ShowSizesInTheHundredsWithoutAPowerOfTen) {
+    EXPECT_EQ(shown_plain(0.3472, 2).text, "0.35");
+    EXPECT_EQ(shown_plain(12.34, 2).text, "12");
+    EXPECT_EQ(shown_plain(99.49, 2).text, "99");
+    EXPECT_EQ(shown_plain(99.6, 2).text, "100");
+    EXPECT_EQ(shown_plain(-140.4, 2).text, "-140");
+    EXPECT_EQ(shown_plain(1152.7, 2).text, "1153");
+    EXPECT_EQ(shown_plain(1.234e-6, 2).text, "1.2E-6");
+    EXPECT_EQ(shown_plain(0.0, 2).text, "0");
+    EXPECT_EQ(shown_plain(140.4, 2).number, 140.4);
+}
+
 TEST(RecordParts, HaveNoDegreesOfFreedomWhereTheyAreInfiniteOrCannotBeStated) {
     EXPECT_EQ(finite_or_none(4.5), 4.5);
     EXPECT_FALSE(finite_or_none(std::numeric_limits<double>::infinity()));
