@@ -13,13 +13,19 @@ namespace {
 constexpr std::uint64_t k_trials_looked_at = 4096;
 constexpr Eigen::Index k_trials_in_a_block = 512;
 constexpr double k_same = 0.01;  // of half the width of the interval: no printed digit
+constexpr double k_same_on_mean =
+    0.05;  // of it, about a tenth of u: what is added again in some trials is taken off in others
+
+double half_width(const MonteCarloOutput& trials) {
+    return 0.5 * (trials.symmetric.high - trials.symmetric.low);
+}
 
 std::string in_unit(double si, double u, const Unit& unit) {
     const std::string people = unit_for_people(unit.text());
     const double difference = unit.difference_from_si(u);
     const std::string number = difference > 0.0 ? round_to_uncertainty(unit.from_si(si), difference, 2).value
                                                 : round_significant(unit.from_si(si), 6);
-    return people.empty() ? number : number + " " + people;
+    return people.empty() ? number : number + (people.starts_with("°") && people.size() == 2 ? "" : " ") + people;
 }
 
 }  // namespace
@@ -27,6 +33,8 @@ std::string in_unit(double si, double u, const Unit& unit) {
 std::vector<double> shares_of_other_choices(const BudgetPointResult& point, std::uint64_t seed) {
     const std::size_t outputs = point.outputs.size();
     std::vector<double> shares(outputs, 0.0);
+    std::vector<double> without_value(outputs, 0.0);
+    std::vector<double> moved(outputs, 0.0);  // sum of what the choices move
     const BudgetModel& model = *point.model;
     if (!model.has_choices()) {
         return shares;
@@ -44,15 +52,20 @@ std::vector<double> shares_of_other_choices(const BudgetPointResult& point, std:
             if (!trials) {
                 continue;
             }
-            const double same = k_same * 0.5 * (trials->symmetric.high - trials->symmetric.low);
+            const double same = k_same * half_width(*trials);
             const auto column = static_cast<Eigen::Index>(i);
+            const auto by_choice = (y.col(column) - as_chosen.col(column)).array();
             // What has no value without the choice is another one, too.
-            shares[i] +=
-                static_cast<double>(x.rows() - ((y.col(column) - as_chosen.col(column)).array().abs() <= same).count());
+            shares[i] += static_cast<double>(x.rows() - (by_choice.abs() <= same).count());
+            without_value[i] += static_cast<double>(by_choice.isNaN().count());
+            moved[i] += by_choice.isNaN().select(0.0, by_choice).sum();
         }
     }
-    for (double& share : shares) {
-        share /= static_cast<double>(k_trials_looked_at);
+    for (std::size_t i = 0; i < outputs; ++i) {
+        const auto& trials = point.outputs[i].monte_carlo;
+        const double count = static_cast<double>(k_trials_looked_at);
+        const bool is_moved = trials && std::abs(moved[i]) > count * k_same_on_mean * half_width(*trials);
+        shares[i] = is_moved || without_value[i] >= count * k_other_choice_matters ? shares[i] / count : 0.0;
     }
     return shares;
 }

@@ -20,7 +20,8 @@ inline constexpr double k_other_choice_matters = 0.01;
 
 /// Share of the trials, one an output, in which a max, min or abs takes another of its values than at the estimates and the
 /// output is another one by it: by more than a hundredth of half the width of its Monte Carlo interval. Of 4096 trials, the
-/// first ones of those that Monte Carlo drew. 0 without max, min and abs, and where there are no trials. A limit without
+/// first ones of those that Monte Carlo drew. 0 where that moves their mean by no more than about a tenth of u, as in a median, which
+/// adds in some trials what it takes off in others; without max, min and abs, and where there are no trials. A limit without
 /// uncertainty is no choice: max(x, 0) has an interval that holds x wherever that of x does.
 [[nodiscard]] std::vector<double> shares_of_other_choices(const BudgetPointResult& point, std::uint64_t seed);
 
