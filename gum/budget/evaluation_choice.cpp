@@ -378,8 +378,11 @@ void note_reported(const Budget& budget, BudgetResult& result) {
                      .severity = Severity::warning});
             }
         }
-        if (auto message = other_choice_message(budget, result, output)) {
-            result.notes.push_back(std::move(*message));
+        for (auto message :
+             {other_choice_message(budget, result, output), value_outside_message(budget, result, output)}) {
+            if (message) {
+                result.notes.push_back(std::move(*message));
+            }
         }
         // Where the law is reported its U stands, and that the trials have none speaks of the trials alone.
         const Places beside = places_of(

@@ -28,6 +28,24 @@ std::string in_unit(double si, double u, const Unit& unit) {
     return people.empty() ? number : number + (people.starts_with("°") && people.size() == 2 ? "" : " ") + people;
 }
 
+/// What numbers beside a result are rounded by.
+double digits_by(const BudgetOutputResult& of) {
+    return of.has_u ? of.monte_carlo->standard_uncertainty : 0.5 * half_width(*of.monte_carlo);
+}
+
+std::string place_of(const Budget& budget, const BudgetPointResult& at, const std::string& output, std::size_t points) {
+    return "result " + output + (at.point ? " at point " + budget.points[*at.point].name : "") +
+           (points > 1 ? ", and at " + std::to_string(points - 1) + " more" : "");
+}
+
+/// By how much the value of the equations at the estimates lies outside of the interval of the trials, in halves of its width.
+double outside(const BudgetPointResult& point, std::size_t column) {
+    const MonteCarloOutput& trials = *point.outputs[column].monte_carlo;
+    const double value = point.propagation.value(static_cast<Eigen::Index>(column));
+    const double half = half_width(trials);
+    return half > 0.0 ? std::max(trials.symmetric.low - value, value - trials.symmetric.high) / half : 0.0;
+}
+
 }  // namespace
 
 std::vector<double> shares_of_other_choices(const BudgetPointResult& point, std::uint64_t seed) {
@@ -92,13 +110,11 @@ std::optional<Diagnostic> other_choice_message(const Budget& budget, const Budge
         return std::nullopt;
     }
     const BudgetOutputResult& of = at->outputs[column];
-    const double u = of.has_u ? of.monte_carlo->standard_uncertainty
-                              : 0.25 * (of.monte_carlo->symmetric.high - of.monte_carlo->symmetric.low);
+    const double u = digits_by(of);
     const std::string value = in_unit(at->propagation.value(static_cast<Eigen::Index>(column)), u, of.unit);
     return Diagnostic{
         .code = "GC-BUDGET-0044",
-        .where = "result " + output + (at->point ? " at point " + budget.points[*at->point].name : "") +
-                 (points > 1 ? ", and at " + std::to_string(points - 1) + " more" : ""),
+        .where = place_of(budget, *at, output, points),
         .what = "max, min or abs takes another of its values than at the estimates in " +
                 round_significant(100.0 * of.other_choice, 2) + " % of the trials of Monte Carlo" +
                 (of.has_u ? ": the equations give " + value + " at the estimates, and the mean of the trials is " +
@@ -111,6 +127,47 @@ std::optional<Diagnostic> other_choice_message(const Budget& budget, const Budge
             "Where these inputs were measured, state them as results with their U in place of what is chosen from "
             "them, or add readings until they differ by more than their uncertainties; where they are limits or "
             "settings, the result holds.",
+        .severity = Severity::warning};
+}
+
+std::optional<Diagnostic> value_outside_message(const Budget& budget, const BudgetResult& result,
+                                                const std::string& output) {
+    const BudgetPointResult* at = nullptr;
+    std::size_t column = 0;
+    std::size_t points = 0;
+    for (const BudgetPointResult& point : result.points) {
+        for (std::size_t i = 0; i < point.outputs.size(); ++i) {
+            const BudgetOutputResult& of = point.outputs[i];
+            if (of.name != output || !of.by_monte_carlo || of.other_choice >= k_other_choice_matters ||
+                outside(point, i) <= k_same_on_mean) {
+                continue;
+            }
+            ++points;
+            if (at == nullptr || outside(point, i) > outside(*at, column)) {
+                at = &point;
+                column = i;
+            }
+        }
+    }
+    if (at == nullptr) {
+        return std::nullopt;
+    }
+    const BudgetOutputResult& of = at->outputs[column];
+    const double u = digits_by(of);
+    return Diagnostic{
+        .code = "GC-BUDGET-0045",
+        .where = place_of(budget, *at, output, points),
+        .what = "the equations give " + in_unit(at->propagation.value(static_cast<Eigen::Index>(column)), u, of.unit) +
+                " at the estimates, outside of the interval of Monte Carlo, " +
+                in_unit(of.monte_carlo->symmetric.low, u, of.unit) + " to " +
+                in_unit(of.monte_carlo->symmetric.high, u, of.unit),
+        .rule =
+            "Monte Carlo takes distributions as what is known of the inputs (JCGM 101:2008, 7.6); near the least or "
+            "the "
+            "largest value of a model all trials lie on one side of the value at the estimates",
+        .action =
+            "Where these inputs were measured, state them as results with their U in place of what is computed from "
+            "them; where they are settings that are known to lie about their estimates, the result holds.",
         .severity = Severity::warning};
 }
 

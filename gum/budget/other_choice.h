@@ -30,4 +30,11 @@ inline constexpr double k_other_choice_matters = 0.01;
 [[nodiscard]] std::optional<Diagnostic> other_choice_message(const Budget& budget, const BudgetResult& result,
                                                              const std::string& output);
 
+/// Warning GC-BUDGET-0045 of an output that is reported by Monte Carlo and whose value at the estimates lies outside of the
+/// interval of the trials, by more than about a tenth of u, whatever the equations are: hypot(a, b) of values near 0 is an
+/// abs(). With the point where that is most; none where GC-BUDGET-0044 says it. The sum of two squares about 0 of JCGM
+/// 101:2008, 9.4.2, lies outside by a fortieth of u.
+[[nodiscard]] std::optional<Diagnostic> value_outside_message(const Budget& budget, const BudgetResult& result,
+                                                              const std::string& output);
+
 }  // namespace gumcert::gum

@@ -281,10 +281,11 @@ struct MessageFinding {
     std::string_view code, id, clause;
     FindingSeverity severity;
 };
-constexpr std::array<MessageFinding, 5> k_message_findings{
+constexpr std::array<MessageFinding, 6> k_message_findings{
     {{"GC-MODEL-0040", "M01", "JCGM 100:2008, 4.1", FindingSeverity::major},
      {"GC-MODEL-0041", "M01", "JCGM 100:2008, 4.1", FindingSeverity::major},
      {"GC-BUDGET-0044", "S18", "JCGM 101:2008, 7.6", FindingSeverity::major},
+     {"GC-BUDGET-0045", "S18", "JCGM 101:2008, 7.6", FindingSeverity::major},
      {"GC-BUDGET-0036", "F03", "JCGM 100:2008, 4.2", FindingSeverity::critical},
      {"GC-BUDGET-0034", "M02", "JCGM 100:2008, 7.2.6", FindingSeverity::critical}}};
 

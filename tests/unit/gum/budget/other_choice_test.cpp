@@ -191,5 +191,28 @@ TEST(OtherChoice, SaysBothValuesAndThePointWhereItIsWorst) {
     EXPECT_EQ(other_choice_message(of, result, "z"), std::nullopt);
 }
 
+// Whatever the equations are: hypot() of values near 0 is an abs(). JCGM 101:2008, 9.4.2, is not accused.
+TEST(OtherChoice, SaysThatTheValueLiesOutsideOfTheInterval) {
+    const auto code_of = [](const std::string& equation, double at) {
+        const BudgetResult result =
+            evaluate_budget(with_few_trials(test::budget({equation}, {input("a", state_uncertainty(at, 1.0)),
+                                                                      input("b", state_uncertainty(0.0, 1.0)),
+                                                                      input("c", state_uncertainty(0.0, 1.0))})),
+                            1);
+        std::string codes;
+        for (const Diagnostic& note : result.notes) {
+            codes += note.code == "GC-BUDGET-0044" || note.code == "GC-BUDGET-0045" ? note.code : "";
+        }
+        return codes;
+    };
+    EXPECT_EQ(code_of("y = hypot(a, b) + 0*c", 0.02), "GC-BUDGET-0045");
+    EXPECT_EQ(code_of("y = sqrt(a^2 + b^2 + c^2)", 0.1), "GC-BUDGET-0045");
+    EXPECT_EQ(code_of("y = 5 - hypot(a, b) + 0*c", 0.02), "GC-BUDGET-0045");
+    EXPECT_EQ(code_of("y = hypot(a, b) + 0*c", 3.0), "");
+    EXPECT_EQ(code_of("y = a^2 + b^2 + 0*c", 0.0), "");
+    EXPECT_EQ(code_of("y = a^2 + 0*b*c", 0.0), "");
+    EXPECT_EQ(code_of("y = abs(a) + 0*b*c", 0.2), "GC-BUDGET-0044");
+}
+
 }  // namespace
 }  // namespace gumcert::gum

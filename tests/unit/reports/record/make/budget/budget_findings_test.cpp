@@ -247,6 +247,11 @@ TEST(BudgetFindings, TellsWhatTrialsChooseOtherwise) {
     EXPECT_EQ(findings(amount("0.5"), "accredited"), "S18 major");
     EXPECT_EQ(findings(amount("0.5"), "not_accredited"), "S18 major");
     EXPECT_EQ(findings(amount("9"), "accredited"), "");
+    // GC-BUDGET-0045
+    EXPECT_EQ(findings(record_of(R"_("model": ["y = hypot(a, b)"], "monte_carlo": {"trials": 20000}, "inputs": {
+                  "a": {"value": 0.02, "u": 1, "unit": "mm"}, "b": {"value": 0, "u": 1, "unit": "mm"}})_"),
+                       "accredited"),
+              "S18 major");
 }
 }  // namespace
 }  // namespace gumcert::reports
