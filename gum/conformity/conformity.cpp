@@ -335,6 +335,9 @@ double Application::before_tail(double accepted, double limit) const {
     }
     for (int i = 0; i < k_bisections; ++i) {
         const double middle = 0.5 * (accepted + limit);
+        if (middle == accepted || middle == limit) {
+            break;  // every further step would ask the same
+        }
         (posterior_->rests_on_tail(middle) ? limit : accepted) = middle;
     }
     return accepted;

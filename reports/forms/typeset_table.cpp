@@ -98,27 +98,52 @@ std::string form_of(const json& cell, bool first, const std::set<std::string>& l
     return seen_characters(words) <= k_short ? "short" : has_long_word(words) ? "long" : "words";
 }
 
-/// Whether a cell is one line of the height of any other, at any width. A short text has no place at which a line may end: behind a hyphen,
-/// a slash or a bar it may (Unicode Standard Annex #14); Chinese has another font, and other heights.
-bool is_one_line(const json& cell) {
+/// Characters that the font of the template has, others having other heights, and between which no line ends (Unicode Standard
+/// Annex #14) unless at a blank. Listed, not excluded: a row that is higher than was thought lies upon the next one.
+bool is_within_a_line(char32_t code) {
+    if (code < 0x80) {
+        return (code >= '0' && code <= '9') || (code >= 'A' && code <= 'Z') || (code >= 'a' && code <= 'z') ||
+               std::u32string_view(U" .=_[]()<>%:+'*&").find(code) != std::u32string_view::npos;
+    }
+    return (code >= 0xC0 && code <= 0x17F) || (code >= 0x391 && code <= 0x3C9) || (code >= 0x2070 && code <= 0x209C) ||
+           std::u32string_view(U"−µ°²³¹±·").find(code) != std::u32string_view::npos;
+}
+
+/// Characters of a number or its unit besides these: it does not break anywhere.
+bool is_within_a_number(char32_t code) {
+    return (code != ' ' && is_within_a_line(code)) ||
+           std::u32string_view(U"-/,×Ω–∞\u00A0\u202F").find(code) != std::u32string_view::npos;
+}
+
+/// Whether a cell is one line of the height of any other, at any width.
+bool is_one_line(const json& cell, std::size_t columns) {
+    constexpr std::size_t k_hyphenated =
+        9;  // characters of a word that the template hyphenates, in a table of many columns
+    constexpr std::size_t k_many_columns = 8;
     const std::string_view form = cell.at("form").get_ref<const std::string&>();
     if (form == "words" || form == "long" || !cell.at("also").empty()) {
         return false;
     }
     const std::string_view words = cell.at("text").get_ref<const std::string&>();
+    if (words == "–") {
+        return true;  // nothing to state
+    }
+    const bool is_short = form == "short";
+    std::size_t word = 0;  // its bytes so far
     for (std::size_t i = 0; i < words.size();) {
         const auto [code, bytes] = text::decode_utf8(words, i);
-        const bool may_end_a_line = code < 0x80 ? std::string_view("-/|?!\t\n").find(words[i]) != std::string_view::npos
-                                                : code == 0xAD || (code >= 0x2000 && code <= 0x2029);
-        i += std::max<std::size_t>(bytes, 1);
-        if (code >= 0x2E80 || (form == "short" && may_end_a_line && i < words.size())) {
+        const std::size_t step = std::max<std::size_t>(bytes, 1);
+        i += step;
+        word = code == ' ' ? 0 : word + step;
+        const bool is_kept = is_short ? is_within_a_line(code) : is_within_a_number(code);
+        if (!is_kept || (is_short && columns > k_many_columns && word >= k_hyphenated)) {
             return false;
         }
     }
     return true;
 }
 
-/// The two longest texts of a column; of equal ones those that come first.
+/// The two longest texts; of equal ones those that come first.
 class Longest {
 public:
     void add(const std::string& words, std::size_t length) {
@@ -130,14 +155,12 @@ public:
             texts_[1] = words;
         }
     }
-    [[nodiscard]] json texts() const {
-        json all = json::array();
+    void tell(json& all) const {
         for (const std::string& words : texts_) {
             if (!words.empty()) {
                 all.push_back({{"text", words}});
             }
         }
-        return all;
     }
 
 private:
@@ -147,7 +170,8 @@ private:
 
 void typeset(json& table, const std::set<std::string>& letters) {
     json& columns = table.at("columns");
-    std::vector<Longest> longest(columns.size());
+    // Numbers of digits alone by themselves: of as many characters, one with blanks and raised digits is narrower.
+    std::vector<Longest> longest(columns.size()), of_digits(columns.size());
     std::vector<std::size_t> most(columns.size());
     for (json& row : table.at("rows")) {
         json& cells = row.at("cells");
@@ -155,7 +179,7 @@ void typeset(json& table, const std::set<std::string>& letters) {
         for (std::size_t c = 0; c < cells.size(); ++c) {
             json& cell = cells[c];
             cell["form"] = form_of(cell, c == 0, letters);
-            is_line = is_line && is_one_line(cell);
+            is_line = is_line && is_one_line(cell, columns.size());
             if (c >= columns.size()) {
                 continue;
             }
@@ -164,14 +188,16 @@ void typeset(json& table, const std::set<std::string>& letters) {
             const bool numbers = columns[c].at("align") == "number";
             most[c] = std::max(most[c], numbers ? length : 0);
             if (!numbers || cell["form"] == "digits" || cell["form"] == "number") {
-                longest[c].add(words, length);
+                (numbers && plain_number(words).is_one ? of_digits : longest)[c].add(words, length);
             }
         }
         row["line"] = is_line ? "one" : "";
     }
     std::size_t digits = 0;
     for (std::size_t c = 0; c < columns.size(); ++c) {
-        columns[c]["longest"] = longest[c].texts();
+        json& texts = columns[c]["longest"] = json::array();
+        of_digits[c].tell(texts);
+        longest[c].tell(texts);
         digits += most[c];
     }
     table["digits"] = std::to_string(digits);

@@ -10,7 +10,7 @@ namespace gumcert::reports {
 ///   column; "short", words of 12 characters at most, which stay in one line; "long", with a word of 30 characters or more;
 ///   "words", any other
 /// - `line` of a row: "one" where it is one line of the height of a number at any width, else ""
-/// - `longest` of a column: the two longest of its numbers where it is one of numbers, else of its texts
+/// - `longest` of a column: the two longest of its texts; where it is one of numbers, of those of digits alone, and of others
 /// - `digits` of a table: characters of the longest number of each column, together
 [[nodiscard]] nlohmann::json with_typeset_tables(nlohmann::json view);
 

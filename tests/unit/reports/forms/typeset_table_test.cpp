@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace gumcert::reports {
@@ -64,15 +65,16 @@ std::string line_of_row(const std::string& text, const std::string& align = "lef
 }
 
 TEST(TypesetTable, TellsRowsThatAreOneLineAtAnyWidth) {
-    for (const char* text : {"", "normal", "U_x[2]", "mg g", "µm", "k = 2", "–", "5-"}) {
+    for (const char* text : {"", "normal", "U_x[2]", "mg g", "µm", "k = 2", "–", "größer"}) {
         EXPECT_EQ(line_of_row(text), "one") << text;
     }
-    for (const char* text :
-         {"DMM-04", "mg/g", "1–2", "a|b", "合格", "soft\u00ADhyphen", "thin\u2009space", "more than twelve"}) {
+    for (const char* text : {"DMM-04", "mg/g", "1–2", "a|b", "x}y", "a,(b)", "→", "合格", "soft\u00ADhyphen",
+                             "thin\u2009space", "more than twelve"}) {
         EXPECT_EQ(line_of_row(text), "") << text;
     }
     EXPECT_EQ(line_of_row("−3.127\u00A0×\u00A010⁻⁷\u00A0mg/(kg/m³)", "number"), "one") << "a number does not break";
     EXPECT_EQ(line_of_row("12\u00A0公斤", "number"), "") << "another font";
+    EXPECT_EQ(line_of_row("12.5 V", "number"), "") << "a blank that breaks";
     EXPECT_EQ(line_of_row("12.5", "number", "closing"), "") << "bold";
     json both = table_cell("pass", "left");
     both["also"] = {{{"text", "bestanden"}}};
@@ -80,6 +82,25 @@ TEST(TypesetTable, TellsRowsThatAreOneLineAtAnyWidth) {
     EXPECT_EQ(typeset_table({{table_cell("1"), table_cell("more than twelve", "left")}},
                             {"number", "left"})["rows"][0]["line"],
               "");
+}
+
+TEST(TypesetTable, KnowsThatWordsAreHyphenatedInATableOfManyColumns) {
+    for (const auto& [columns, verdict, line] :
+         {std::tuple{8, "undetermined", "one"}, {9, "undetermined", ""}, {9, "größeres", ""}, {9, "pass", "one"}}) {
+        std::vector<json> row(static_cast<std::size_t>(columns), table_cell("1.5"));
+        std::vector<std::string> aligned(row.size(), "number");
+        row.back() = table_cell(verdict, "left");
+        aligned.back() = "left";
+        EXPECT_EQ(typeset_table({row}, aligned)["rows"][0]["line"], line) << columns << " columns, " << verdict;
+    }
+}
+
+TEST(TypesetTable, NamesTheLongestOfDigitsAloneBesideOthers) {
+    const json table =
+        typeset_table({{table_cell("−3.127\u00A0×\u00A010⁻⁷")}, {table_cell("−0.03467499")}}, {"number"});
+    EXPECT_EQ(table["columns"][0]["longest"],
+              json::array({{{"text", "−0.03467499"}}, {{"text", "−3.127\u00A0×\u00A010⁻⁷"}}}))
+        << "that of fewer characters is the wider one";
 }
 
 TEST(TypesetTable, NamesTheLongestOfAColumn) {
