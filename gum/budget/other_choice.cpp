@@ -33,9 +33,38 @@ double digits_by(const BudgetOutputResult& of) {
     return of.has_u ? of.monte_carlo->standard_uncertainty : 0.5 * half_width(*of.monte_carlo);
 }
 
-std::string place_of(const Budget& budget, const BudgetPointResult& at, const std::string& output, std::size_t points) {
-    return "result " + output + (at.point ? " at point " + budget.points[*at.point].name : "") +
-           (points > 1 ? ", and at " + std::to_string(points - 1) + " more" : "");
+/// The point at which something is told of an output, where it is worst, and how many there are.
+struct WorstPoint {
+    const BudgetPointResult* at = nullptr;  ///< null: nothing is told
+    std::size_t column = 0;                 ///< of the output
+    std::size_t points = 0;
+
+    [[nodiscard]] double value() const { return at->propagation.value(static_cast<Eigen::Index>(column)); }
+};
+
+/// \param measure  of a point and a column: how bad it is, 0 where nothing is told
+template <class Measure>
+WorstPoint worst_point(const BudgetResult& result, const std::string& output, const Measure& measure) {
+    WorstPoint worst;
+    double most = 0.0;
+    for (const BudgetPointResult& point : result.points) {
+        for (std::size_t i = 0; i < point.outputs.size(); ++i) {
+            const BudgetOutputResult& of = point.outputs[i];
+            const double here = of.name == output && of.by_monte_carlo ? measure(point, i) : 0.0;
+            if (here > most) {
+                most = here;
+                worst.at = &point;
+                worst.column = i;
+            }
+            worst.points += here > 0.0 ? 1 : 0;
+        }
+    }
+    return worst;
+}
+
+std::string place_of(const Budget& budget, const WorstPoint& worst, const std::string& output) {
+    return "result " + output + (worst.at->point ? " at point " + budget.points[*worst.at->point].name : "") +
+           (worst.points > 1 ? ", and at " + std::to_string(worst.points - 1) + " more" : "");
 }
 
 /// By how much the value of the equations at the estimates lies outside of the interval of the trials, in halves of its width.
@@ -90,31 +119,19 @@ std::vector<double> shares_of_other_choices(const BudgetPointResult& point, std:
 
 std::optional<Diagnostic> other_choice_message(const Budget& budget, const BudgetResult& result,
                                                const std::string& output) {
-    const BudgetPointResult* at = nullptr;
-    std::size_t column = 0;
-    std::size_t points = 0;
-    for (const BudgetPointResult& point : result.points) {
-        for (std::size_t i = 0; i < point.outputs.size(); ++i) {
-            const BudgetOutputResult& of = point.outputs[i];
-            if (of.name != output || !of.by_monte_carlo || of.other_choice < k_other_choice_matters) {
-                continue;
-            }
-            ++points;
-            if (at == nullptr || of.other_choice > at->outputs[column].other_choice) {
-                at = &point;
-                column = i;
-            }
-        }
-    }
-    if (at == nullptr) {
+    const WorstPoint worst = worst_point(result, output, [](const BudgetPointResult& point, std::size_t column) {
+        const double share = point.outputs[column].other_choice;
+        return share >= k_other_choice_matters ? share : 0.0;
+    });
+    if (worst.at == nullptr) {
         return std::nullopt;
     }
-    const BudgetOutputResult& of = at->outputs[column];
+    const BudgetOutputResult& of = worst.at->outputs[worst.column];
     const double u = digits_by(of);
-    const std::string value = in_unit(at->propagation.value(static_cast<Eigen::Index>(column)), u, of.unit);
+    const std::string value = in_unit(worst.value(), u, of.unit);
     return Diagnostic{
         .code = "GC-BUDGET-0044",
-        .where = place_of(budget, *at, output, points),
+        .where = place_of(budget, worst, output),
         .what = "max, min or abs takes another of its values than at the estimates in " +
                 round_significant(100.0 * of.other_choice, 2) + " % of the trials of Monte Carlo" +
                 (of.has_u ? ": the equations give " + value + " at the estimates, and the mean of the trials is " +
@@ -132,39 +149,25 @@ std::optional<Diagnostic> other_choice_message(const Budget& budget, const Budge
 
 std::optional<Diagnostic> value_outside_message(const Budget& budget, const BudgetResult& result,
                                                 const std::string& output) {
-    const BudgetPointResult* at = nullptr;
-    std::size_t column = 0;
-    std::size_t points = 0;
-    for (const BudgetPointResult& point : result.points) {
-        for (std::size_t i = 0; i < point.outputs.size(); ++i) {
-            const BudgetOutputResult& of = point.outputs[i];
-            if (of.name != output || !of.by_monte_carlo || of.other_choice >= k_other_choice_matters ||
-                outside(point, i) <= k_same_on_mean) {
-                continue;
-            }
-            ++points;
-            if (at == nullptr || outside(point, i) > outside(*at, column)) {
-                at = &point;
-                column = i;
-            }
-        }
-    }
-    if (at == nullptr) {
+    const WorstPoint worst = worst_point(result, output, [](const BudgetPointResult& point, std::size_t column) {
+        const double beyond = outside(point, column);
+        return point.outputs[column].other_choice < k_other_choice_matters && beyond > k_same_on_mean ? beyond : 0.0;
+    });
+    if (worst.at == nullptr) {
         return std::nullopt;
     }
-    const BudgetOutputResult& of = at->outputs[column];
+    const BudgetOutputResult& of = worst.at->outputs[worst.column];
     const double u = digits_by(of);
     return Diagnostic{
         .code = "GC-BUDGET-0045",
-        .where = place_of(budget, *at, output, points),
-        .what = "the equations give " + in_unit(at->propagation.value(static_cast<Eigen::Index>(column)), u, of.unit) +
+        .where = place_of(budget, worst, output),
+        .what = "the equations give " + in_unit(worst.value(), u, of.unit) +
                 " at the estimates, outside of the interval of Monte Carlo, " +
                 in_unit(of.monte_carlo->symmetric.low, u, of.unit) + " to " +
                 in_unit(of.monte_carlo->symmetric.high, u, of.unit),
         .rule =
-            "Monte Carlo takes distributions as what is known of the inputs (JCGM 101:2008, 7.6); near the least or "
-            "the "
-            "largest value of a model all trials lie on one side of the value at the estimates",
+            "Monte Carlo takes distributions as what is known of the inputs (JCGM 101:2008, 7.6); near the least "
+            "or the largest value of a model all trials lie on one side of the value at the estimates",
         .action =
             "Where these inputs were measured, state them as results with their U in place of what is computed from "
             "them; where they are settings that are known to lie about their estimates, the result holds.",
