@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <memory>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -293,20 +294,16 @@ private:
         std::function<VisitEffects::Effect()> effect;  ///< none: no unknowns of its own
     };
 
-    static std::function<VisitEffects::Effect()> same(VisitEffects::Effect effect) {
-        return [effect = std::move(effect)] { return effect; };
+    /// A group that takes its whole effect away.
+    [[nodiscard]] Candidate with_effect(GroupTest test, VisitEffects::Effect effect, Index unknowns) {
+        const auto shared = std::make_shared<const VisitEffects::Effect>(std::move(effect));
+        return {std::move(test), [this, shared, unknowns] { visits_.take_away(*shared, unknowns); },
+                [shared] { return *shared; }};
     }
-    [[nodiscard]] VisitEffects::Effect effect_of_columns(const std::vector<VisitEffects::Column>& columns) const {
-        VisitEffects::Effect effect(visits_.size());
-        for (std::size_t k = 0; k < columns.size(); ++k) {
-            for (const auto& [g, value] : columns[k]) {
-                if (effect[g].size() == 0) {
-                    effect[g] = MatrixXd::Zero(poses_[g].rows(), std::ssize(columns));
-                }
-                effect[g].col(static_cast<Index>(k)).setConstant(value);
-            }
-        }
-        return effect;
+    /// The same of effects that are alike at all distances of a visit, made when they are asked for.
+    [[nodiscard]] Candidate with_columns(GroupTest test, const std::vector<VisitEffects::Column>& columns) {
+        return {std::move(test), [this, columns] { visits_.take_away(columns); },
+                [this, columns] { return visits_.effect_of(columns); }};
     }
     /// An effect by the distances of the measurement, which are the same in adjustments of other visits.
     [[nodiscard]] MatrixXd columns_of(const VisitEffects::Effect& effect) const {
@@ -385,7 +382,7 @@ private:
             const auto leave_out = [this, g] { visits_.leave_out(g); };
             if (tests_[g].is_controlled) {
                 take(best, {length_test(g, tests_[g]), leave_out, [this, g] {
-                                return effect_of_columns({{{g, 1.0}}});
+                                return visits_.effect_of({{{g, 1.0}}});
                             }});
             }
             if (tests_[g].pose_rank > 0 && is_more_than_length(tests_[g]) && is_worst_of_angle(g)) {
@@ -545,8 +542,7 @@ private:
             }
             if (std::optional<GroupTest> test = column_test(GroupKind::dead_path_change, column, count)) {
                 place(*test, sequence[first]);
-                take(best, {*test, [this, column] { visits_.take_away({column}); },
-                            [this, column] { return effect_of_columns({column}); }});
+                take(best, with_columns(*test, {column}));
             }
         }
         return best;
@@ -602,7 +598,7 @@ private:
                     GroupTest placed = *test;
                     place(placed, passes[j][from].front());
                     placed.angle = GroupTest::k_none;  // the whole pass, not its first angle
-                    take(best, {placed, [this, effect] { visits_.take_away(effect, 3); }, same(effect)});
+                    take(best, with_effect(placed, std::move(effect), 3));
                 }
             }
         }
@@ -703,7 +699,7 @@ private:
             if (std::optional<GroupTest> test = place_test(kind, effect, count, scale_within_visits())) {
                 describe(*test, seen[m], found[m]);
                 test->reflector = m;
-                take(best, {*test, [this, effect] { visits_.take_away(effect, 3); }, same(effect)});
+                take(best, with_effect(*test, std::move(effect), 3));
             }
         }
         return best;
@@ -838,7 +834,7 @@ private:
             }
             test->station = pair / reflectors;
             test->reflector = pair % reflectors;
-            take(best, {*test, [this, effect = effects[pair]] { visits_.take_away(effect, 1); }, same(effects[pair])});
+            take(best, with_effect(*test, std::move(effects[pair]), 1));
         }
         return best;
     }
@@ -850,14 +846,14 @@ private:
         const std::size_t stations = adjustment_.measurement().stations.size();
         std::optional<Candidate> best;
         for (std::size_t j = 0; j < stations; ++j) {
-            const VisitEffects::Effect effect = effect_of_scale(adjustment_, visits_, j);
+            VisitEffects::Effect effect = effect_of_scale(adjustment_, visits_, j);
             // A scale that is free takes it up wholly.
             std::optional<GroupTest> test = test_of_one_size(GroupKind::station_scale, effect, stations);
             if (!test) {
                 continue;
             }
             test->station = j;
-            take(best, {*test, [this, effect] { visits_.take_away(effect, 1); }, same(effect)});
+            take(best, with_effect(*test, std::move(effect), 1));
         }
         return best;
     }
@@ -890,7 +886,7 @@ private:
         if (coefficient < k_least_expansion || coefficient > k_most_expansion || scales_explain_more(*test)) {
             return std::nullopt;
         }
-        return Candidate{*test, [this, effect] { visits_.take_away(effect, 1); }, same(effect)};
+        return with_effect(*test, std::move(effect), 1);
     }
 
     /// Whether scales of the stations, each its own, explain clearly more than one coefficient: then some stations have errors
@@ -957,7 +953,7 @@ private:
                 continue;
             }
             test->station = j;
-            take(best, {*test, [this, effect] { visits_.take_away(effect, 1); }, same(effect)});
+            take(best, with_effect(*test, std::move(effect), 1));
         }
         return best;
     }
@@ -1029,12 +1025,11 @@ private:
             }
         }
         place(*best, order[from]);
-        const VisitEffects::Effect effect = fixture_place_effect(order, from);
-        return Candidate{*best, [this, effect] { visits_.take_away(effect, 6); }, same(effect)};
+        return with_effect(*best, fixture_place_effect(order, from), 6);
     }
     [[nodiscard]] VisitEffects::Effect fixture_place_effect(const std::vector<std::size_t>& order,
                                                             std::size_t from) const {
-        const double lever = reflectors_about_their_centre().rowwise().norm().mean();
+        const double lever = about_their_centre(adjustment_.measurement().fixture).rowwise().norm().mean();
         // Poses turn about the origin of the table. The fixture turns about its middle: where the CMM has the origin of its
         // coordinates says nothing of what is seen of a motion, nor of its size.
         const RigidMotion& set_up = adjustment_.set_up();
@@ -1077,9 +1072,6 @@ private:
         return test;
     }
     [[nodiscard]] const std::vector<Visit>& visits() const { return adjustment_.visits(); }
-    [[nodiscard]] Eigen::MatrixX3d reflectors_about_their_centre() const {
-        return about_their_centre(adjustment_.measurement().fixture);
-    }
 
     /// Drifts that are tested: columns with the value -1/2 at the first visit and 1/2 at the last one.
     struct Drifts {
@@ -1152,8 +1144,7 @@ private:
         const auto consider = [&](std::optional<GroupTest> test, const std::vector<VisitEffects::Column>& columns) {
             if (test) {
                 test->family = count;
-                take(best, {*test, [this, columns] { visits_.take_away(columns); },
-                            [this, columns] { return effect_of_columns(columns); }});
+                take(best, with_columns(*test, columns));
             }
         };
         for (std::size_t k = 0; k < all.each.size(); ++k) {
@@ -1219,12 +1210,12 @@ private:
                                     2 * static_cast<std::size_t>(most) * measurement.stations.size());
             test.station = j;
             test.estimate = worst.steps;
-            take(best, {test,
-                        [this, effect = worst.effect, j] {
-                            visits_.take_away(effect, 1);
-                            moved_[j] = true;
-                        },
-                        same(worst.effect)});
+            Candidate candidate = with_effect(std::move(test), std::move(worst.effect), 1);
+            candidate.take_away = [this, j, take_effect_away = std::move(candidate.take_away)] {
+                take_effect_away();
+                moved_[j] = true;
+            };
+            take(best, std::move(candidate));
         }
         return best;
     }

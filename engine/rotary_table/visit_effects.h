@@ -52,6 +52,7 @@ public:
     using Effect = std::vector<Eigen::MatrixXd>;
     /// Values at visits: the same at all distances of each.
     using Column = std::vector<std::pair<std::size_t, double>>;
+    [[nodiscard]] Effect effect_of(const std::vector<Column>& columns) const;
 
     /// C may contain what was taken away before, or what the parameters take up wholly: only the part that is controlled is
     /// taken away.
@@ -121,7 +122,6 @@ private:
         [[nodiscard]] Eigen::MatrixXd across(const Effect& effect, Eigen::Index q) const;
     };
 
-    [[nodiscard]] Effect effect_of(const std::vector<Column>& columns) const;
     /// Jᵀ V⁻¹ C, parameters×q.
     [[nodiscard]] Eigen::MatrixXd pull_of(const Effect& effect, Eigen::Index q) const;
     /// M C at every visit, and at the fixture.
