@@ -3,6 +3,7 @@
 #include "certificate/point_names.h"
 #include "gum/quantity/unit.h"
 #include "reports/point_headings.h"
+#include "reports/printed_texts.h"
 #include "reports/record/stated_values.h"
 
 #include <algorithm>
@@ -127,9 +128,9 @@ void add_model_values(std::vector<Text>& sentences, const std::vector<Result>& r
     std::vector<Text> values;
     for (std::size_t i = 0; i < results.size(); ++i) {
         if (is_beside_model(results[i])) {
-            const std::string unit = gum::unit_for_people(results[i].printed.unit);
-            values.push_back(named[i].name + Text(": ") + words.number(results[i].printed.value) +
-                             (unit.empty() ? Text() : Text("\u00A0" + unit)));
+            values.push_back(
+                named[i].name + Text(": ") +
+                with_unit(words.number(results[i].printed.value), gum::unit_for_people(results[i].printed.unit)));
         }
     }
     if (!values.empty()) {

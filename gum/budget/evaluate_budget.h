@@ -38,8 +38,8 @@ struct BudgetOutputResult {
     std::optional<MonteCarloOutput> monte_carlo;
     std::uint64_t trials = 0;
     bool stabilised = true;
-    double other_choice =
-        0.0;  ///< share of the trials in which a max, min or abs chooses otherwise (gum/budget/other_choice.h)
+    /// Share of the trials in which a max, min or abs chooses otherwise (gum/budget/other_choice.h).
+    double other_choice = 0.0;
     std::optional<Validation> validation;  ///< in the unit of the result
     /// What is reported (gum/budget/evaluation_choice.h): the result of Monte Carlo, and why; or that of the law of propagation,
     /// and what speaks against it where the budget asks for it.

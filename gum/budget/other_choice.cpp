@@ -13,8 +13,8 @@ namespace {
 constexpr std::uint64_t k_trials_looked_at = 4096;
 constexpr Eigen::Index k_trials_in_a_block = 512;
 constexpr double k_same = 0.01;  // of half the width of the interval: no printed digit
-constexpr double k_same_on_mean =
-    0.05;  // of it, about a tenth of u: what is added again in some trials is taken off in others
+// Of it, too, about a tenth of u: what is added again in some trials is taken off in others.
+constexpr double k_same_on_mean = 0.05;
 
 double half_width(const MonteCarloOutput& trials) {
     return 0.5 * (trials.symmetric.high - trials.symmetric.low);

@@ -128,8 +128,7 @@ private:
             stated.decimals[input] = *angle;
         }
         const StatementKeys own(document_, at, keys_of<OverrideStatement>(), problems_);
-        const StatementKeys all = inputs_.stated()[input].keys->with(own);
-        stated.statements.emplace(input, all);
+        stated.statements.emplace(input, inputs_.stated()[input].keys->with(own));
         for (const std::string_view key : own.present()) {
             stated.replaced.emplace_back(input, key);
         }

@@ -113,10 +113,8 @@ std::string parameters_sentence(const Expected& expected) {
         "root mean square over " +
         std::to_string(k_drawn_tables) +
         " drawn tables, of each as an evaluation states it, for every angle that may be extreme. Their error motions "
-        "are "
-        "large against the uncertainties, and one angle is independent of the next; of a smooth curve more angles lie "
-        "near "
-        "the extreme, and an evaluation may state up to a half more.";
+        "are large against the uncertainties, and one angle is independent of the next; of a smooth curve more angles "
+        "lie near the extreme, and an evaluation may state up to a half more.";
     const ExpectedParameters& parameters = expected.parameters;
     if (parameters.u_deviation > 0.0) {
         text += " The deviation of one run will have a standard uncertainty of " +
