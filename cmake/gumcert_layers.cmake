@@ -9,8 +9,8 @@ set(GUMCERT_LAYER_FOLDERS text encoding system gum/quantity json gum/expression 
                           gum/comparison certificate certificate/gates laboratory engine engine/rotary_table
                           engine/rotary_table/start engine/rotary_table/evaluation
                           engine/rotary_table/trials engine/rotary_table/studies gum/budget gum/circle_closure
-                          gum/rotary_table gum/rotary_table/studies workbook audit audit/rules jobs jobs/certificate
-                          jobs/laboratory jobs/budget
+                          gum/rotary_table gum/rotary_table/studies workbook audit audit/rules audit/words
+                          audit/tables jobs jobs/certificate jobs/laboratory jobs/budget
                           jobs/circle_closure jobs/rotary_table jobs/comparison jobs/schema reports/record
                           reports/record/schema reports/record/make reports/record/make/budget
                           reports/record/make/comparison
@@ -54,6 +54,8 @@ set(GUMCERT_EDGES_audit                              text gum/quantity gum gum/m
                                                      gum/comparison certificate workbook)
 set(GUMCERT_EDGES_audit_rules                        text gum/quantity gum/expression gum
                                                      gum/comparison certificate workbook audit)
+set(GUMCERT_EDGES_audit_words                        text gum/quantity gum/conformity certificate audit)
+set(GUMCERT_EDGES_audit_tables                       text gum/quantity workbook audit audit/words)
 set(GUMCERT_EDGES_jobs                               text encoding gum/quantity json gum gum/monte_carlo)
 set(GUMCERT_EDGES_jobs_certificate                   text encoding gum/quantity json gum/conformity certificate jobs)
 set(GUMCERT_EDGES_jobs_laboratory                    text gum/quantity certificate laboratory jobs jobs/certificate)
@@ -106,7 +108,7 @@ set(GUMCERT_EDGES_reports_dcc                        text encoding gum/quantity 
 set(GUMCERT_EDGES_reports_agreement                  text gum/quantity json certificate reports/record reports
                                                      reports/forms reports/dcc)
 set(GUMCERT_EDGES_audit_sources                      text gum/quantity gum gum/conformity certificate workbook
-                                                     audit reports/record reports/dcc)
+                                                     audit audit/words reports/record reports/dcc)
 set(GUMCERT_EDGES_signing                            text encoding system gum/quantity json)
 set(GUMCERT_EDGES_imports                            text gum/quantity json gum/expression certificate reports reports/dcc
                                                      signing)
@@ -117,7 +119,7 @@ set(GUMCERT_EDGES_evaluation                         text encoding gum/quantity 
                                                      certificate/gates laboratory engine/rotary_table
                                                      gum/budget gum/circle_closure
                                                      gum/rotary_table gum/rotary_table/studies workbook audit
-                                                     audit/rules jobs jobs/certificate jobs/laboratory jobs/budget
+                                                     audit/rules audit/tables jobs jobs/certificate jobs/laboratory jobs/budget
                                                      jobs/circle_closure jobs/rotary_table jobs/comparison
                                                      reports/record reports/record/make reports/record/make/budget
                                                      reports/record/make/comparison reports/record/make/rotary_table
@@ -177,6 +179,8 @@ set(GUMCERT_THIRD_PARTY_gum_rotary_table_studies           Eigen)
 set(GUMCERT_THIRD_PARTY_workbook                           boost libxml zip.h)
 set(GUMCERT_THIRD_PARTY_audit)
 set(GUMCERT_THIRD_PARTY_audit_rules                        Eigen)
+set(GUMCERT_THIRD_PARTY_audit_words)
+set(GUMCERT_THIRD_PARTY_audit_tables)
 set(GUMCERT_THIRD_PARTY_jobs                               Eigen nlohmann)
 set(GUMCERT_THIRD_PARTY_jobs_certificate                   nlohmann)
 set(GUMCERT_THIRD_PARTY_jobs_laboratory                    nlohmann)
@@ -231,10 +235,10 @@ set(GUMCERT_ONLY_IN gum/quantity/dense_factors.h Eigen/Eigenvalues Eigen/QR Eige
 # Headers of ours that only their own layer may include. They are not installed, and the line above leaves them alone.
 set(GUMCERT_PRIVATE_HEADERS archive/store/postgresql_connection.h archive/store/postgresql_schema.h
                             archive/store/sqlite_schema.h archive/store/sqlite_statement.h
-                            audit/sources/correlation_lines.h
-                            audit/sources/head_lines.h audit/sources/open_sums.h audit/sources/product_of_table.h
-                            audit/sources/results_of_table.h audit/sources/row_lines.h
-                            audit/sources/table_reader.h audit/sources/table_so_far.h
+                            audit/tables/correlation_lines.h
+                            audit/tables/head_lines.h audit/tables/open_sums.h audit/tables/product_of_table.h
+                            audit/tables/results_of_table.h audit/tables/row_lines.h
+                            audit/tables/table_reader.h audit/tables/table_so_far.h
                             engine/rotary_table/start/candidate_places.h engine/rotary_table/start/closed_solution.h
                             engine/rotary_table/start/fit_limits.h
                             engine/rotary_table/start/gross_errors.h engine/rotary_table/start/interrupted_beams.h

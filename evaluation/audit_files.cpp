@@ -14,7 +14,7 @@
 #include "audit/rules/registry.h"
 #include "audit/sources/certificate_subject.h"
 #include "audit/sources/record_subject.h"
-#include "audit/sources/workbook_subject.h"
+#include "audit/tables/workbook_subject.h"
 #include "certificate/stated_text.h"
 #include "certificate/waiver.h"
 #include "encoding/sha2.h"

@@ -10,8 +10,8 @@
 
 #include "audit/budget_outcome.h"
 #include "audit/finding.h"
-#include "audit/sources/stated_rule.h"
 #include "audit/word_line.h"
+#include "audit/words/stated_rule.h"
 #include "certificate/stated_text.h"
 #include "gum/conformity/decision_rule.h"
 #include "gum/coverage.h"

@@ -6,7 +6,7 @@
 
 #include "audit/audit.h"
 #include "audit/rules/registry.h"
-#include "audit/sources/workbook_subject.h"
+#include "audit/tables/workbook_subject.h"
 #include "gum/quantity/diagnostic.h"
 #include "workbook/read_csv.h"
 
