@@ -239,6 +239,9 @@ set(GUMCERT_PRIVATE_HEADERS archive/store/postgresql_connection.h archive/store/
                             audit/tables/head_lines.h audit/tables/open_sums.h audit/tables/product_of_table.h
                             audit/tables/results_of_table.h audit/tables/row_lines.h
                             audit/tables/table_reader.h audit/tables/table_so_far.h
+                            audit/words/bare_text.h audit/words/column_words.h audit/words/dictionary.h
+                            audit/words/product_of_coverage.h audit/words/statement_words.h
+                            audit/words/uncertainty_in_words.h
                             engine/rotary_table/start/candidate_places.h engine/rotary_table/start/closed_solution.h
                             engine/rotary_table/start/fit_limits.h
                             engine/rotary_table/start/gross_errors.h engine/rotary_table/start/interrupted_beams.h

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <utility>
 
-#include "audit/words/budget_words.h"
+#include "audit/words/column_heads.h"
 #include "audit/words/correlation_words.h"
 #include "text/visible_text.h"
 

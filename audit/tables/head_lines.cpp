@@ -13,7 +13,7 @@
 #include "audit/row_facts.h"
 #include "audit/row_meaning.h"
 #include "audit/tables/table_so_far.h"
-#include "audit/words/budget_words.h"
+#include "audit/words/column_heads.h"
 #include "audit/words/unit_words.h"
 
 namespace gumcert::audit {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "audit/row_meaning.h"
+#include "audit/words/column_heads.h"
 #include "audit/words/unit_words.h"
 
 namespace gumcert::audit {

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "audit/claims.h"
-#include "audit/words/budget_words.h"
+#include "audit/words/column_heads.h"
 #include "audit/words/unit_words.h"
 #include "gum/quantity/unit.h"
 #include "text/visible_text.h"

@@ -10,7 +10,9 @@
 #include "audit/claims.h"
 #include "audit/row_facts.h"
 #include "audit/tables/product_of_rows.h"
-#include "audit/words/budget_words.h"
+#include "audit/words/column_heads.h"
+#include "audit/words/coverage_words.h"
+#include "audit/words/named_statement.h"
 #include "audit/words/unit_words.h"
 #include "text/numbers.h"
 

@@ -11,7 +11,8 @@
 #include "audit/sentence.h"
 #include "audit/tables/sheet_view.h"
 #include "audit/tables/table_heads.h"
-#include "audit/words/budget_words.h"
+#include "audit/words/column_heads.h"
+#include "audit/words/named_statement.h"
 
 namespace gumcert::audit {
 

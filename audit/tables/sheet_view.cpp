@@ -4,6 +4,7 @@
 #include <iterator>
 #include <utility>
 
+#include "audit/words/column_heads.h"
 #include "audit/words/unit_words.h"
 #include "text/numbers.h"
 #include "text/visible_text.h"

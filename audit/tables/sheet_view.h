@@ -11,7 +11,7 @@
 
 #include "audit/sentence.h"
 #include "audit/stated_number.h"
-#include "audit/words/budget_words.h"
+#include "audit/words/column_heads.h"
 #include "workbook/evaluate.h"
 #include "workbook/workbook.h"
 

@@ -9,7 +9,10 @@
 #include <string_view>
 
 #include "audit/row_meaning.h"
-#include "audit/words/budget_words.h"
+#include "audit/words/column_heads.h"
+#include "audit/words/coverage_words.h"
+#include "audit/words/named_statement.h"
+#include "audit/words/sum_names.h"
 #include "text/small_letters.h"
 #include "text/visible_text.h"
 

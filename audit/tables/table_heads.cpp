@@ -9,6 +9,8 @@
 #include <utility>
 
 #include "audit/tables/limits_of_rows.h"
+#include "audit/words/column_heads.h"
+#include "audit/words/named_statement.h"
 #include "audit/words/unit_words.h"
 
 namespace gumcert::audit {

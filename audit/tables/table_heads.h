@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "audit/tables/sheet_view.h"
-#include "audit/words/budget_words.h"
+#include "audit/words/column_heads.h"
 
 namespace gumcert::audit {
 

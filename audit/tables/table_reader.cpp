@@ -25,7 +25,9 @@
 #include "audit/tables/sum_rows.h"
 #include "audit/tables/table_so_far.h"
 #include "audit/tables/table_sums.h"
-#include "audit/words/budget_words.h"
+#include "audit/words/column_heads.h"
+#include "audit/words/named_statement.h"
+#include "audit/words/sum_names.h"
 #include "text/numbers.h"
 #include "text/visible_text.h"
 

@@ -9,7 +9,9 @@
 #include "audit/row_facts.h"
 #include "audit/row_meaning.h"
 #include "audit/stated_number.h"
-#include "audit/words/budget_words.h"
+#include "audit/words/column_heads.h"
+#include "audit/words/coverage_words.h"
+#include "audit/words/named_statement.h"
 
 namespace gumcert::audit {
 

@@ -10,6 +10,7 @@
 #include "audit/tables/result_lines.h"
 #include "audit/tables/row_units.h"
 #include "audit/tables/table_heads.h"
+#include "audit/words/column_heads.h"
 
 namespace gumcert::audit {
 

@@ -17,7 +17,7 @@
 #include "audit/budget_outcome.h"
 #include "audit/claims.h"
 #include "audit/tables/foreign_table.h"
-#include "audit/words/budget_words.h"
+#include "audit/words/named_statement.h"
 #include "gum/quantity/diagnostic.h"
 
 namespace gumcert::audit {

@@ -13,6 +13,7 @@
 #include "audit/rules/registry.h"
 #include "audit/tables/foreign_table.h"
 #include "audit/tables/workbook_subject.h"
+#include "audit/words/coverage_words.h"
 #include "tests/support/workbook_of.h"
 #include "text/numbers.h"
 #include "workbook/read_csv.h"

@@ -1,4 +1,5 @@
 #include "audit/tables/table_heads.h"
+#include "audit/words/column_heads.h"
 
 #include <gtest/gtest.h>
 

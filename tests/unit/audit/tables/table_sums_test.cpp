@@ -1,4 +1,5 @@
 #include "audit/tables/table_sums.h"
+#include "audit/words/column_heads.h"
 
 #include <gtest/gtest.h>
 

@@ -13,7 +13,7 @@
 #include "audit/audit.h"
 #include "audit/rules/registry.h"
 #include "audit/tables/workbook_subject.h"
-#include "audit/words/budget_words.h"
+#include "audit/words/column_heads.h"
 #include "audit/words/unit_words.h"
 #include "text/numbers.h"
 #include "workbook/read_csv.h"
