@@ -9,7 +9,8 @@ set(GUMCERT_LAYER_FOLDERS text encoding system gum/quantity json gum/expression 
                           gum/comparison certificate certificate/gates laboratory engine engine/rotary_table
                           engine/rotary_table/start engine/rotary_table/evaluation
                           engine/rotary_table/trials engine/rotary_table/studies gum/budget gum/circle_closure
-                          gum/rotary_table gum/rotary_table/studies workbook audit audit/rules audit/words
+                          gum/rotary_table gum/rotary_table/studies workbook audit audit/worksheets
+                          audit/rules audit/words
                           audit/tables jobs jobs/certificate jobs/laboratory jobs/budget
                           jobs/circle_closure jobs/rotary_table jobs/comparison jobs/schema reports/record
                           reports/record/schema reports/record/make reports/record/make/budget
@@ -52,8 +53,9 @@ set(GUMCERT_EDGES_gum_rotary_table_studies           text gum/quantity gum gum/m
 set(GUMCERT_EDGES_workbook                           text gum/quantity)
 set(GUMCERT_EDGES_audit                              text gum/quantity gum gum/monte_carlo gum/conformity
                                                      gum/comparison certificate workbook)
+set(GUMCERT_EDGES_audit_worksheets                   text workbook audit)
 set(GUMCERT_EDGES_audit_rules                        text gum/quantity gum/expression gum
-                                                     gum/comparison certificate workbook audit)
+                                                     gum/comparison certificate audit audit/worksheets)
 set(GUMCERT_EDGES_audit_words                        text gum/quantity gum/conformity certificate audit)
 set(GUMCERT_EDGES_audit_tables                       text gum/quantity workbook audit audit/words)
 set(GUMCERT_EDGES_jobs                               text encoding gum/quantity json gum gum/monte_carlo)
@@ -178,6 +180,7 @@ set(GUMCERT_THIRD_PARTY_gum_rotary_table                   Eigen)
 set(GUMCERT_THIRD_PARTY_gum_rotary_table_studies           Eigen)
 set(GUMCERT_THIRD_PARTY_workbook                           boost libxml zip.h)
 set(GUMCERT_THIRD_PARTY_audit)
+set(GUMCERT_THIRD_PARTY_audit_worksheets)
 set(GUMCERT_THIRD_PARTY_audit_rules                        Eigen)
 set(GUMCERT_THIRD_PARTY_audit_words)
 set(GUMCERT_THIRD_PARTY_audit_tables)

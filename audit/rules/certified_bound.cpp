@@ -7,10 +7,10 @@
 #include <utility>
 #include <vector>
 
+#include "audit/row_edits.h"
 #include "audit/rules/budget_model.h"
 #include "audit/rules/registry.h"
-#include "audit/rules/row_edits.h"
-#include "audit/rules/stated_outcome.h"
+#include "audit/stated_outcome.h"
 
 namespace gumcert::audit {
 namespace {

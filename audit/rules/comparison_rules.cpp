@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
+#include "audit/row_edits.h"
 #include "audit/rules/registry.h"
-#include "audit/rules/row_edits.h"
-#include "audit/rules/stated_outcome.h"
+#include "audit/stated_outcome.h"
 #include "certificate/text_words.h"
 #include "gum/comparison/agreement.h"
 #include "gum/comparison/robust_statistics.h"

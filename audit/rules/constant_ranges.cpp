@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "audit/rules/row_edits.h"
+#include "audit/row_edits.h"
 
 namespace gumcert::audit {
 namespace {

@@ -10,10 +10,10 @@
 
 #include "audit/budget_outcome.h"
 #include "audit/checklists.h"
+#include "audit/row_edits.h"
 #include "audit/rules/gate_findings.h"
 #include "audit/rules/registry.h"
-#include "audit/rules/row_edits.h"
-#include "audit/rules/stated_outcome.h"
+#include "audit/stated_outcome.h"
 #include "audit/word_line.h"
 #include "certificate/dates.h"
 #include "certificate/text_words.h"

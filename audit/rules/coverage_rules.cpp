@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "audit/claims.h"
+#include "audit/row_edits.h"
 #include "audit/row_facts.h"
 #include "audit/rules/registry.h"
-#include "audit/rules/row_edits.h"
 #include "gum/coverage.h"
 #include "gum/quantity/diagnostic.h"
 #include "text/numbers.h"

@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
+#include "audit/row_edits.h"
 #include "audit/rules/gate_findings.h"
 #include "audit/rules/registry.h"
-#include "audit/rules/row_edits.h"
 #include "audit/word_line.h"
 #include "certificate/text_words.h"
 #include "gum/coverage.h"

@@ -11,11 +11,11 @@
 #include <vector>
 
 #include "audit/comment_pieces.h"
+#include "audit/row_edits.h"
 #include "audit/row_facts.h"
 #include "audit/row_meaning.h"
 #include "audit/rules/registry.h"
-#include "audit/rules/row_edits.h"
-#include "audit/rules/stated_outcome.h"
+#include "audit/stated_outcome.h"
 #include "text/numbers.h"
 #include "text/small_letters.h"
 

@@ -12,10 +12,10 @@
 #include <utility>
 #include <vector>
 
+#include "audit/row_edits.h"
 #include "audit/rules/budget_model.h"
 #include "audit/rules/constant_ranges.h"
 #include "audit/rules/registry.h"
-#include "audit/rules/row_edits.h"
 #include "gum/expression/name.h"
 #include "gum/expression/name_spelling.h"
 #include "gum/nearest_correlation.h"

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "audit/rules/gate_findings.h"
+#include "audit/worksheets/worksheet_rules.h"
 
 namespace gumcert::audit {
 

@@ -8,7 +8,7 @@
 
 namespace gumcert::audit {
 
-// The rules by families, one file each. Ids never change and are never used again.
+// The rules by families, one file each; W, of worksheets, are a layer of their own. Ids never change and are never used again.
 
 [[nodiscard]] std::vector<Rule> input_rules();         ///< U: inputs, Type A and Type B
 [[nodiscard]] std::vector<Rule> type_a_rules();        ///< U of readings, a part of input_rules()
@@ -23,8 +23,6 @@ namespace gumcert::audit {
 [[nodiscard]] std::vector<Rule> conformity_rules();    ///< D: conformity
 [[nodiscard]] std::vector<Rule> comparison_rules();    ///< N: comparisons
 [[nodiscard]] std::vector<Rule> record_rules();        ///< P: records, people, software
-[[nodiscard]] std::vector<Rule> worksheet_rules();     ///< W: worksheets
-[[nodiscard]] Rule stored_value_rule();                ///< W17, the last of worksheet_rules()
 
 /// A rule of the catalogue that the program does not apply, and why.
 struct RuleLeftOut {

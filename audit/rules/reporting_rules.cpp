@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "audit/claims.h"
+#include "audit/row_edits.h"
 #include "audit/rules/gate_findings.h"
 #include "audit/rules/registry.h"
-#include "audit/rules/row_edits.h"
-#include "audit/rules/stated_outcome.h"
+#include "audit/stated_outcome.h"
 #include "audit/word_line.h"
 
 namespace gumcert::audit {

@@ -4,10 +4,10 @@
 #include <utility>
 #include <vector>
 
+#include "audit/row_edits.h"
 #include "audit/rules/gate_findings.h"
 #include "audit/rules/registry.h"
-#include "audit/rules/row_edits.h"
-#include "audit/rules/stated_outcome.h"
+#include "audit/stated_outcome.h"
 #include "text/numbers.h"
 
 namespace gumcert::audit {

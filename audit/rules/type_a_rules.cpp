@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "audit/budget_outcome.h"
+#include "audit/row_edits.h"
 #include "audit/rules/registry.h"
-#include "audit/rules/row_edits.h"
-#include "audit/rules/worksheet_view.h"
 #include "audit/word_line.h"
+#include "audit/worksheets/worksheet_view.h"
 #include "gum/analysis_of_variance.h"
 #include "gum/quantity/diagnostic.h"
 

@@ -321,7 +321,7 @@ def plurals(root: pathlib.Path, catalogue: dict) -> list[str]:
 
 # The audit -------------------------------------------------------------------------------------------------------------
 
-AUDIT = ("audit/*.cpp", "audit/rules/*.cpp", "audit/words/*.cpp", "audit/tables/*.cpp", "audit/sources/*.cpp",
+AUDIT = ("audit/*.cpp", "audit/worksheets/*.cpp", "audit/rules/*.cpp", "audit/words/*.cpp", "audit/tables/*.cpp", "audit/sources/*.cpp",
          "evaluation/audit_files.cpp")
 # Words to look for in the files of others, pages of our documentation, and messages of the program.
 NO_SENTENCES_OF_AUDIT = (

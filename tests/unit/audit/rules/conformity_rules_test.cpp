@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "audit/audit.h"
+#include "audit/row_edits.h"
 #include "audit/rules/registry.h"
-#include "audit/rules/row_edits.h"
 #include "tests/support/audit_subject.h"
 
 namespace gumcert::audit {

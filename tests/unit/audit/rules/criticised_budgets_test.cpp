@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "audit/correction_effect.h"
-#include "audit/rules/row_edits.h"
+#include "audit/row_edits.h"
 #include "tests/support/audit_rules.h"
 #include "tests/support/audited_budgets.h"
 

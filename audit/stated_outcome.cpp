@@ -1,8 +1,8 @@
-#include "audit/rules/stated_outcome.h"
+#include "audit/stated_outcome.h"
 
 #include <utility>
 
-#include "audit/rules/row_edits.h"
+#include "audit/row_edits.h"
 #include "audit/word_line.h"
 #include "gum/quantity/diagnostic.h"
 

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "audit/claims.h"
-#include "audit/rules/registry.h"
-#include "audit/rules/row_edits.h"
-#include "audit/rules/worksheet_view.h"
+#include "audit/row_edits.h"
+#include "audit/worksheets/worksheet_rules.h"
+#include "audit/worksheets/worksheet_view.h"
 #include "text/numbers.h"
 
 namespace gumcert::audit {

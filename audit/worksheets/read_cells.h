@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "audit/rules/worksheet_view.h"
+#include "audit/worksheets/worksheet_view.h"
 
 namespace gumcert::audit {
 

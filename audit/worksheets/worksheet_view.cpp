@@ -1,4 +1,4 @@
-#include "audit/rules/worksheet_view.h"
+#include "audit/worksheets/worksheet_view.h"
 
 #include <algorithm>
 #include <cmath>
@@ -211,6 +211,11 @@ std::vector<FormulaDivision> divisions_in(const WorksheetView& view, const Sheet
     std::vector<FormulaDivision> divisions;
     add_divisions(view, formula, formula.formula.nodes[formula.formula.root()], 1.0, divisions);
     return divisions;
+}
+
+bool is_call(const workbook::FormulaNode& node, std::initializer_list<std::string_view> names) {
+    return node.kind == workbook::FormulaNodeKind::call &&
+           std::find(names.begin(), names.end(), node.text) != names.end();
 }
 
 bool calls_one_of(const workbook::Formula& formula, std::initializer_list<std::string_view> names) {

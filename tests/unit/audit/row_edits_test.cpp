@@ -1,4 +1,4 @@
-#include "audit/rules/row_edits.h"
+#include "audit/row_edits.h"
 
 #include <cmath>
 #include <random>

@@ -74,6 +74,8 @@ struct FormulaDivision {
 /// What the number of a formula was divided by: "=0.01/2/SQRT(3)" has 2 and √3, "=SQRT(VAR.S(B2:B7)/6)" has √6. Operands of sums
 /// are not looked at: they are parts of the number.
 [[nodiscard]] std::vector<FormulaDivision> divisions_in(const WorksheetView& view, const SheetFormula& formula);
+/// Whether a node of a formula calls one of some functions, whose names stand in capitals.
+[[nodiscard]] bool is_call(const workbook::FormulaNode& node, std::initializer_list<std::string_view> names);
 /// Whether a formula calls one of some functions, whose names stand in capitals.
 [[nodiscard]] bool calls_one_of(const workbook::Formula& formula, std::initializer_list<std::string_view> names);
 

@@ -1,4 +1,4 @@
-#include "audit/rules/read_cells.h"
+#include "audit/worksheets/read_cells.h"
 
 #include <algorithm>
 #include <tuple>

@@ -7,7 +7,7 @@
 
 #include "audit/audit.h"
 #include "audit/audited_workbook.h"
-#include "audit/rules/registry.h"
+#include "audit/worksheets/worksheet_rules.h"
 #include "tests/support/growth.h"
 #include "tests/support/workbook_of.h"
 

@@ -1,4 +1,4 @@
-#include "audit/rules/stated_outcome.h"
+#include "audit/stated_outcome.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "audit/rules/worksheet_view.h"
+#include "audit/worksheets/worksheet_view.h"
 
 #include <gtest/gtest.h>
 
