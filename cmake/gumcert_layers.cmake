@@ -238,7 +238,7 @@ set(GUMCERT_ONLY_IN gum/quantity/dense_factors.h Eigen/Eigenvalues Eigen/QR Eige
 # Headers of ours that only their own layer may include. They are not installed, and the line above leaves them alone.
 set(GUMCERT_PRIVATE_HEADERS archive/store/postgresql_connection.h archive/store/postgresql_schema.h
                             archive/store/sqlite_schema.h archive/store/sqlite_statement.h
-                            audit/tables/correlation_lines.h
+                            audit/tables/beside_number.h audit/tables/claims_of_table.h audit/tables/correlation_lines.h
                             audit/tables/head_lines.h audit/tables/open_sums.h audit/tables/product_of_table.h
                             audit/tables/results_of_table.h audit/tables/row_lines.h
                             audit/tables/table_reader.h audit/tables/table_so_far.h

@@ -5,7 +5,7 @@
 
 #include "audit/audited_budget.h"
 #include "audit/sentence.h"
-#include "audit/tables/result_lines.h"
+#include "audit/tables/stated_results.h"
 
 namespace gumcert::audit {
 

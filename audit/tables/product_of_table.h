@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "audit/sentence.h"
-#include "audit/tables/result_lines.h"
+#include "audit/tables/stated_results.h"
 #include "audit/tables/table_so_far.h"
 
 namespace gumcert::audit {

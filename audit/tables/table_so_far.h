@@ -10,10 +10,11 @@
 
 #include "audit/audited_budget.h"
 #include "audit/sentence.h"
+#include "audit/tables/named_line.h"
 #include "audit/tables/product_of_rows.h"
-#include "audit/tables/result_lines.h"
 #include "audit/tables/row_units.h"
 #include "audit/tables/sheet_view.h"
+#include "audit/tables/stated_results.h"
 #include "audit/tables/table_heads.h"
 #include "audit/tables/table_sums.h"
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "audit/audited_budget.h"
-#include "audit/tables/result_lines.h"
 #include "audit/tables/row_units.h"
+#include "audit/tables/stated_results.h"
 #include "audit/tables/table_heads.h"
 #include "audit/words/column_heads.h"
 
