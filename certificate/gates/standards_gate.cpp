@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <optional>
@@ -17,6 +16,7 @@
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/unit.h"
 #include "text/numbers.h"
+#include "text/rounded_number.h"
 #include "text/visible_text.h"
 
 namespace gumcert::certificate {
@@ -198,12 +198,7 @@ std::optional<double> largest_u(const Certificate& certificate, const gum::Unit&
 /// for two.
 double least_before_rounding(double U) {
     constexpr int k_all_digits = 17;
-    const auto is_in = [U](int digits) {
-        const std::string text = text::significant(U, digits);
-        double rounded = 0.0;
-        std::from_chars(text.data(), text.data() + text.size(), rounded);
-        return rounded == U;
-    };
+    const auto is_in = [U](int digits) { return text::rounded_number(U, digits) == U; };
     int digits = 2;
     while (digits < k_all_digits && !is_in(digits)) {
         ++digits;

@@ -28,6 +28,7 @@
 #include "text/counts.h"
 #include "text/lists.h"
 #include "text/numbers.h"
+#include "text/rounded_number.h"
 #include "text/visible_text.h"
 
 namespace gumcert::jobs {
@@ -926,15 +927,6 @@ private:
                std::find(k_without_value.begin(), k_without_value.end(), first.statement) != k_without_value.end();
     }
 
-    /// The digits that double precision holds: 0.3 for 0.1 + 0.2.
-    [[nodiscard]] static double held(double value) {
-        constexpr int k_digits = 15;
-        const std::string text = text::significant(value, k_digits);
-        double number = value;
-        std::from_chars(text.data(), text.data() + text.size(), number);
-        return number;
-    }
-
     /// With the decimals that were written; of a mean no more than double precision holds.
     [[nodiscard]] static std::string as_written(double value, int decimals) {
         constexpr int k_last_digit = 14;  // behind the first one
@@ -997,7 +989,7 @@ private:
                         gum::round_to_uncertainty(value, stated.unit.difference_from_si(total.u)).value);
                     added.decimals = "of_uncertainty";
                 } else {
-                    const std::string shortest = text::shortest(held(value));
+                    const std::string shortest = text::shortest(text::rounded_number(value, text::k_digits_held));
                     added.printed.push_back(as_written(
                         value, inputs_.decimals_of_job(stated.name).value_or(text::most_decimals({&shortest, 1}))));
                 }

@@ -1,7 +1,6 @@
 #include "jobs/laboratory/standard_row.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -16,6 +15,7 @@
 #include "laboratory/outlook.h"
 #include "laboratory/standard_value.h"
 #include "text/numbers.h"
+#include "text/rounded_number.h"
 
 namespace gumcert::jobs {
 
@@ -50,6 +50,7 @@ std::optional<double> U_in_si(const json& row, const char* key) {
 }
 
 constexpr double k_same_U = 1e-9;
+constexpr int k_digits_of_U = 2;
 
 /// Whether the unit of a row is of the kind of another one: 2 µA are not 2 µV, though both are 2e-6.
 bool is_of_kind(const json& row, const std::string& unit) {
@@ -57,16 +58,9 @@ bool is_of_kind(const json& row, const std::string& unit) {
     return gum::Unit::parse(stated.empty() ? "1" : stated).dimension() == gum::Unit::parse(unit).dimension();
 }
 
-/// To the two digits of an uncertainty.
-double in_two_digits(double U) {
-    const std::string text = text::significant(U, 2);
-    std::from_chars(text.data(), text.data() + text.size(), U);
-    return U;
-}
-
 /// U of a line for the list of standards: a share of the value has as many digits as the value.
 double shown_U(const laboratory::CalibrationResult& line, double U) {
-    return line.relative_U ? in_two_digits(U) : U;
+    return line.relative_U ? text::rounded_number(U, k_digits_of_U) : U;
 }
 
 double factor_of(const laboratory::CalibrationResult& line) {
@@ -90,7 +84,7 @@ void put_uncertainty_of_kind(json& row, std::vector<const laboratory::Calibratio
     const double k = std::max_element(all.begin(), all.end(), less)->second;
     for (auto& [U, own] : all) {
         if (std::abs(own - k) > k_same_U * k) {  // of another k: two digits of what it is with this one
-            U = in_two_digits(U / own * k);
+            U = text::rounded_number(U / own * k, k_digits_of_U);
         }
     }
     const auto [least, largest] = std::minmax_element(all.begin(), all.end());
@@ -165,10 +159,12 @@ void note_contradictions(const json& stated, const json& row, const StandardReco
             for (const laboratory::CalibrationResult& line : calibration->results) {
                 const double of_line = gum::Unit::parse(line.unit).difference_to_si(line.U);
                 const double k = factor_of(line);
-                fits = fits || (key == "k" ? value.is_number() && std::abs(value.get<double>() - k) <= k_same_U * k
-                                           : U && is_of_kind(stated, line.unit) &&
-                                                 (std::abs(*U - of_line) <= k_same_U * of_line ||
-                                                  (line.relative_U && in_two_digits(*U) == in_two_digits(of_line))));
+                fits =
+                    fits || (key == "k" ? value.is_number() && std::abs(value.get<double>() - k) <= k_same_U * k
+                                        : U && is_of_kind(stated, line.unit) &&
+                                              (std::abs(*U - of_line) <= k_same_U * of_line ||
+                                               (line.relative_U && text::rounded_number(*U, k_digits_of_U) ==
+                                                                       text::rounded_number(of_line, k_digits_of_U))));
             }
             if (!fits && (key == "k" || (key != "unit" && U))) {
                 const auto of_row = registered == row.end() ? row.find("U") : registered;

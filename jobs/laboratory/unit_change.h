@@ -1,10 +1,9 @@
 #pragma once
 
-#include <charconv>
 #include <string>
 
 #include "gum/quantity/unit.h"
-#include "text/numbers.h"
+#include "text/rounded_number.h"
 
 namespace gumcert::jobs {
 
@@ -24,13 +23,7 @@ public:
 
 private:
     /// Without what two conversions leave behind the last digit of a decimal number.
-    static double in_decimals(double v) {
-        constexpr int k_digits_of_double = 15;
-        const std::string text = text::significant(v, k_digits_of_double);
-        double rounded = v;
-        std::from_chars(text.data(), text.data() + text.size(), rounded);
-        return rounded;
-    }
+    static double in_decimals(double v) { return text::rounded_number(v, text::k_digits_held); }
 
     bool is_same_;
     gum::Unit from_, to_;
