@@ -38,6 +38,9 @@ struct CapabilityInputs {
     /// Trials of results whose U comes from Monte Carlo, by Result::name. Counted where a decision needs them, one
     /// result after the other: they take memory.
     std::map<std::string, gum::TrialsOfOutput> trials = {};
+    /// What the equations give at the estimates, in the unit of the result, by Result::name: where evidence is against the mean
+    /// of the trials that is stated (gum::is_mean_in_doubt()).
+    std::map<std::string, double> at_estimates = {};
     gum::RoundingMode rounding = gum::RoundingMode::half_even;  ///< of U, as the job asks for it
 };
 

@@ -193,4 +193,21 @@ std::vector<double> coverage_probabilities(const EvaluationRecord& record, const
     return all;
 }
 
+Text values_of_model(const EvaluationRecord& record, const certificate::CertifiedTable& table,
+                     const certificate::CertifiedColumn& column, const Wording& words) {
+    const bool has_points = table.argument && table.argument->name == "point";
+    std::vector<Result> of_column;
+    for (const Result& r : record.results) {
+        const bool is_in_table =
+            !has_points || std::ranges::find(table.argument->printed, r.point) != table.argument->printed.end();
+        if ((r.quantity.empty() ? r.name : r.quantity) == column.result && is_in_table && is_beside_model(r)) {
+            of_column.push_back(r);
+        }
+    }
+    std::vector<Text> sentences;
+    add_model_values(sentences, of_column,
+                     quantities_of(of_column, record.certificate ? &*record.certificate : nullptr, words), words);
+    return sentences.empty() ? Text() : sentences.front();
+}
+
 }  // namespace gumcert::reports

@@ -24,4 +24,9 @@ namespace gumcert::reports {
                                                          const certificate::CertifiedTable& table,
                                                          const certificate::CertifiedColumn& column);
 
+/// That the values of a certified column are means of trials, and what the model gives at the estimates; empty where that is the
+/// same.
+[[nodiscard]] Text values_of_model(const EvaluationRecord& record, const certificate::CertifiedTable& table,
+                                   const certificate::CertifiedColumn& column, const Wording& words);
+
 }  // namespace gumcert::reports

@@ -211,6 +211,23 @@ void run_monte_carlo_unasked(const Budget& budget, const std::optional<EquationS
     }
 }
 
+/// Trials beside a law that the budget asks for against evidence: they tell by how much it is wrong, and may refute what is only
+/// feared. Where they fail, as outside of the domain of the model, the law is stated without them.
+void run_monte_carlo_beside(const Budget& budget, const std::optional<EquationSystem>& system, unsigned threads,
+                            const Progress& progress, BudgetPointResult& point, BudgetResult& result) {
+    try {
+        run_monte_carlo(budget, system, automatic_monte_carlo(), threads, progress, point);
+        result.automatic_monte_carlo = automatic_monte_carlo();
+    } catch (const NoResultError&) {
+        point.monte_carlo.reset();
+        for (BudgetOutputResult& output : point.outputs) {
+            output.monte_carlo.reset();
+            output.trials = 0;
+            output.stabilised = true;
+        }
+    }
+}
+
 /// What Monte Carlo adds to the outputs: validation, where the budget demands it.
 void validate_outputs(const Budget& budget, BudgetPointResult& point, BudgetResult& result) {
     for (std::size_t i = 0; i < point.outputs.size(); ++i) {
@@ -278,7 +295,8 @@ void warn(const Budget& budget, const BudgetPointResult& point, const std::strin
                                                   : "Add \"coverage\": \"monte_carlo\" to the job.",
                                     .severity = Severity::warning});
         }
-        if (!output.stabilised) {
+        // Of trials that nobody asked for, beside a law that is stated all the same, nothing is to be raised.
+        if (!output.stabilised && (output.by_monte_carlo || budget.monte_carlo)) {
             result.notes.push_back(not_stabilised_message(place, output.trials));
         }
     }
@@ -318,8 +336,10 @@ void report(const Budget& budget, const std::optional<EquationSystem>& system, c
     const std::vector<std::string> evidence = evidence_against_law(point, !system || is_linear(*system));
     std::vector<CoverageChoice> choices;
     bool needed = false;
+    bool is_forced = false;
     for (std::size_t i = 0; i < point.outputs.size(); ++i) {
         choices.push_back(coverage_choice_of(budget, point.outputs[i].name));
+        is_forced = is_forced || (choices[i] == CoverageChoice::law_of_propagation && !evidence[i].empty());
         needed = needed || needs_monte_carlo(choices[i], evidence[i]);
     }
     if (budget.monte_carlo) {
@@ -329,6 +349,8 @@ void report(const Budget& budget, const std::optional<EquationSystem>& system, c
         }
     } else if (needed) {
         run_monte_carlo_unasked(budget, system, evidence, where, threads, progress, point, result);
+    } else if (is_forced) {
+        run_monte_carlo_beside(budget, system, threads, progress, point, result);
     }
     if (point.monte_carlo) {
         const std::vector<double> shares = shares_of_other_choices(point, point.monte_carlo->seed);

@@ -372,7 +372,7 @@ void note_reported(const Budget& budget, BudgetResult& result) {
                     {.code = "GC-BUDGET-0026",
                      .where = where_of(output, forced),
                      .what = "the law of propagation is reported because the job asks for it, although " +
-                             reason_in_words(reason),
+                             reason_in_words(reason) + law_beside_trials(budget, result, output, reason),
                      .rule = "a result is stated by the evaluation that holds (JCGM 101:2008, clause 8)",
                      .action = "Leave out \"coverage\": \"law_of_propagation\": then Monte Carlo is reported.",
                      .severity = Severity::warning});

@@ -174,4 +174,48 @@ std::optional<Diagnostic> value_outside_message(const Budget& budget, const Budg
         .severity = Severity::warning};
 }
 
+bool is_mean_in_doubt(const BudgetPointResult& point, std::size_t output) {
+    const BudgetOutputResult& of = point.outputs[output];
+    return of.by_monte_carlo && of.has_u &&
+           (of.other_choice >= k_other_choice_matters || outside(point, output) > k_same_on_mean);
+}
+
+std::string law_beside_trials(const Budget& budget, const BudgetResult& result, const std::string& output,
+                              const std::string& reason) {
+    const BudgetPointResult* worst = nullptr;
+    std::size_t column = 0;
+    double most = -1.0;
+    for (const BudgetPointResult& point : result.points) {
+        for (std::size_t i = 0; i < point.outputs.size(); ++i) {
+            const BudgetOutputResult& of = point.outputs[i];
+            if (of.name != output || of.against != reason || !of.has_u || !of.monte_carlo || !of.expanded_uncertainty) {
+                continue;
+            }
+            const double value = point.propagation.value(static_cast<Eigen::Index>(i));
+            const double U = *of.expanded_uncertainty;
+            const CoverageInterval& interval = of.monte_carlo->symmetric;
+            const double apart = std::max(std::abs(value - U - interval.low), std::abs(value + U - interval.high));
+            const double scale = half_width(*of.monte_carlo);
+            if (scale > 0.0 && apart / scale > most) {
+                most = apart / scale;
+                worst = &point;
+                column = i;
+            }
+        }
+    }
+    if (worst == nullptr) {
+        return "";
+    }
+    const BudgetOutputResult& of = worst->outputs[column];
+    const double u = digits_by(of);
+    const auto print = [&](double si) { return in_unit(si, u, of.unit); };
+    const double value = worst->propagation.value(static_cast<Eigen::Index>(column));
+    const bool is_one_of_many = worst->point && result.points.size() > 1;
+    const double U = *of.expanded_uncertainty;
+    return (is_one_of_many ? ": at point " + budget.points[*worst->point].name + " the law" : ": the law") + " gives " +
+           print(value) + ", from " + print(value - U) + " to " + print(value + U) + ", and Monte Carlo " +
+           print(of.monte_carlo->mean) + ", from " + print(of.monte_carlo->symmetric.low) + " to " +
+           print(of.monte_carlo->symmetric.high);
+}
+
 }  // namespace gumcert::gum

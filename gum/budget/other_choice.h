@@ -37,4 +37,13 @@ inline constexpr double k_other_choice_matters = 0.01;
 [[nodiscard]] std::optional<Diagnostic> value_outside_message(const Budget& budget, const BudgetResult& result,
                                                               const std::string& output);
 
+/// Whether one of the two is told of a result at a point, and the trials have a mean: then evidence is against stating this mean
+/// alone, or deciding by it what the value at the estimates decides otherwise.
+[[nodiscard]] bool is_mean_in_doubt(const BudgetPointResult& point, std::size_t output);
+
+/// What the law gives and what the trials give, of an output of which the law is reported against evidence: ": the law gives
+/// 100.2 mm, from …, and Monte Carlo 101.0 mm, from …", at the point where they differ most; "" without trials.
+[[nodiscard]] std::string law_beside_trials(const Budget& budget, const BudgetResult& result, const std::string& output,
+                                            const std::string& reason);
+
 }  // namespace gumcert::gum

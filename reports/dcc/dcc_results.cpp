@@ -199,12 +199,16 @@ void conformity(DccWriter& w, const Column& c, const std::string& specification)
     const Wording& words = w.words();
     std::vector<std::string> verdicts;
     std::vector<std::string> exact;
+    std::vector<std::string> notes;
     std::vector<const Verdict*> formulas;  // several where an alternative of the rule decided some of the values
     for (const CertifiedValue& v : c.column.values) {
         const Verdict* const verdict = c.verdict(v, specification);
         const auto same = [&](const Verdict* one) { return one->formula == verdict->formula; };
         if (verdict != nullptr && !verdict->formula.empty() && std::none_of(formulas.begin(), formulas.end(), same)) {
             formulas.push_back(verdict);
+        }
+        if (verdict != nullptr && !verdict->note.empty() && std::ranges::find(notes, verdict->note) == notes.end()) {
+            notes.push_back(verdict->note);
         }
         // A row without a specification must have an entry, and the format has none for "not decided". "noPass" claims
         // least: it says neither that the row conforms nor that it does not.
@@ -221,6 +225,9 @@ void conformity(DccWriter& w, const Column& c, const std::string& specification)
     }
     if (std::find(verdicts.begin(), verdicts.end(), "noPass") != verdicts.end()) {
         append_line(declaration, words.filled("dcc", "conformity_words", {{"name", name}}));
+    }
+    for (const std::string& note : notes) {
+        append_line(declaration, words.sentence(note));
     }
     w.optional_text("dcc:declaration", declaration);
     w.xml.element(c.list ? "dcc:conformityXMLList" : "dcc:conformity", full_list(verdicts));
@@ -295,9 +302,9 @@ void column_once(DccWriter& w, const Column& c) {
     const std::string ref_type = known.empty() ? w.ref_types()("value_results") : known;
     w.xml.open("dcc:quantity", {{"refType", ref_type + " gumcert_" + as_token(c.column.result)}});
     w.text("dcc:name", result_meaning(c.table, c.column, w.words()));
-    if (c.stated == Stated::standard) {
-        w.text("dcc:description", note_on_standard(w, c));
-    }
+    Text description = c.stated == Stated::standard ? note_on_standard(w, c) : Text();
+    append_line(description, values_of_model(w.record(), c.table, c.column, w.words()));
+    w.optional_text("dcc:description", description);
     w.xml.open(c.list ? "si:realListXMLList" : "si:real");
     w.xml.element(c.list ? "si:labelXMLList" : "si:label", as_token(c.column.result));
     // The text that is printed, not the number behind it: readers of the XML and of the page must get the same value.

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "gum/budget/budget_model.h"
+#include "gum/budget/other_choice.h"
 #include "gum/monte_carlo/convolution.h"
 #include "jobs/budget/budget_results.h"
 
@@ -154,6 +155,9 @@ certificate::CapabilityInputs capability_inputs(const jobs::BudgetJob& job, cons
             }
             if (!is_decided) {
                 continue;
+            }
+            if (gum::is_mean_in_doubt(point, i)) {
+                inputs.at_estimates.emplace(name, unit.from_si(point.propagation.value(output)));
             }
             if (point.outputs[i].by_monte_carlo && point.monte_carlo) {
                 inputs.trials.emplace(name, gum::TrialsOfOutput{.model = point.model,

@@ -218,6 +218,42 @@ void fill(Verdict& verdict, const ConformityDecision& decision) {
     verdict.note = decision.note;
 }
 
+/// The same measurement with another value: its distribution is moved by as much.
+gum::MeasuredValue moved_to(const gum::MeasuredValue& y, double value) {
+    gum::MeasuredValue other = y;
+    other.value = value;
+    const auto moved = [by = value - y.value](const std::function<double(double)>& function) {
+        return function ? [function, by](double x) { return function(x - by); } : std::function<double(double)>();
+    };
+    other.distribution = moved(y.distribution);
+    other.distribution_below = moved(y.distribution_below);
+    return other;
+}
+
+/// Evidence is against the mean of the trials as the value. Where the rule says something else of what the model gives at the
+/// estimates, nothing is decided, and no probability is stated.
+/// \param other  what the rule says of that value
+/// \return whether nothing is decided by it
+bool is_withheld(Verdict& verdict, const ConformityDecision& other) {
+    const bool has_word = other.rule == gum::DecisionRule::three_way || other.rule == gum::DecisionRule::iso_14253_1;
+    if (verdict.verdict == "not_applicable") {
+        return false;
+    }
+    if (verdict.verdict == gum::verdict_name(other.verdict)) {
+        verdict.note += (verdict.note.empty() ? "" : " ") +
+                        std::string(
+                            "At the estimates of the input quantities the measurement model gives another value "
+                            "than the mean of the Monte Carlo trials, and the rule the same verdict.");
+        return false;
+    }
+    verdict.verdict = verdict.verdict_from_printed = has_word ? "undetermined" : "not_applicable";
+    verdict.largest_specific_risk.reset();
+    verdict.note =
+        "At the estimates of the input quantities the measurement model gives another value than the mean of the Monte "
+        "Carlo trials, and the rule another verdict: nothing is decided.";
+    return true;
+}
+
 Verdict& not_applicable(Verdict& verdict, const std::string& why) {
     verdict.verdict = verdict.verdict_from_printed = "not_applicable";
     verdict.note = why;
@@ -274,8 +310,12 @@ Verdict verdict_of(const AgreedSpecification& specification, const certificate::
         const gum::Diagnostic& first = error.diagnostics().front();
         return not_applicable(verdict, first.what + ": " + first.rule);
     }
+    const bool withheld =
+        known.at_estimates &&
+        is_withheld(verdict, gum::decide_conformity(rule.rule, rule.parameters, rule.limits,
+                                                    moved_to(numbers->unrounded, *known.at_estimates)));
     // Where nothing was decided no probability is printed, and none has to be explained.
-    const bool is_open = verdict.verdict == "not_applicable" && !verdict.largest_specific_risk;
+    const bool is_open = withheld || (verdict.verdict == "not_applicable" && !verdict.largest_specific_risk);
     if (!known.note.empty() && !is_open && (!known.function || numbers->unrounded.distribution)) {
         verdict.note += (verdict.note.empty() ? "" : " ") + known.note + error_of_count(known, verdict);
         if (numbers->raised && numbers->unrounded.distribution) {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "certificate/certified_results.h"
@@ -15,6 +16,8 @@ struct KnownDistribution {
     std::string note;                        ///< English sentence for the verdict; "" without
     std::uint64_t trials = 0;                ///< of Monte Carlo, that the function counts; 0: it is not from trials
     double least_probability = 0.0;          ///< the function tells nothing of smaller ones
+    /// Value of the measurement model at the estimates, where evidence is against the mean of the trials as the value.
+    std::optional<double> at_estimates = {};
 };
 
 /// Decides on conformity of one value, twice: with the unrounded numbers, and with those that are printed.

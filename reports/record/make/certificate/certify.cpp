@@ -376,7 +376,11 @@ private:
                      .action = "Name a result in one specification; decide the other on a certificate of its own."});
                 continue;
             }
-            const KnownDistribution known = value.external ? KnownDistribution() : known_distribution(value, result);
+            KnownDistribution known = value.external ? KnownDistribution() : known_distribution(value, result);
+            if (const auto found = inputs_.at_estimates.find(result != nullptr ? result->name : "");
+                found != inputs_.at_estimates.end()) {
+                known.at_estimates = found->second;
+            }
             value.verdict = specification.limits ? at_point(specification, column, value, known, point)
                                                  : verdict_of(specification, column, value, known);
         }
@@ -468,6 +472,18 @@ void add_against(std::vector<Finding>& findings, const std::string& result, cons
             "Leave out \"coverage\": \"law_of_propagation\" in the job: then the result of Monte Carlo is reported.");
 }
 
+/// The same with what the law and the trials give, where the evaluation tells it of the result.
+std::string with_numbers(const EvaluationRecord& record, const std::string& result, const std::string& what) {
+    for (const gum::Diagnostic& message : record.diagnostics) {
+        const bool is_of_result =
+            message.where == "result " + result || message.where.starts_with("result " + result + " at ");
+        if (is_of_result && message.what.starts_with(what + ": ")) {
+            return message.what;
+        }
+    }
+    return what;
+}
+
 /// Results that Monte Carlo does not confirm, although ±U of the law of propagation is certified.
 void note_validation(std::vector<Finding>& findings, const std::string& result,
                      const std::optional<reports::MonteCarloSummary>& trials) {
@@ -485,6 +501,7 @@ std::vector<Finding> validation_findings(const EvaluationRecord& record) {
         const reports::ReportedResult reported = reports::reported_result(result);
         if (!reported.against.empty()) {
             add_against(findings, name, reported.against);
+            findings.back().what = with_numbers(record, name, findings.back().what);
         }
         if (reported.method == "law_of_propagation") {
             note_validation(findings, name, result.monte_carlo);

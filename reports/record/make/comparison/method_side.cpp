@@ -10,6 +10,7 @@
 #include "certificate/statement_of_uncertainty.h"
 #include "gum/budget/evaluate_budget.h"
 #include "gum/budget/expanded_about_value.h"
+#include "gum/budget/other_choice.h"
 #include "gum/budget/reported_covariance.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/rounding.h"
@@ -24,6 +25,8 @@ namespace gumcert::reports {
 namespace {
 
 constexpr const char* k_law_against_evidence = "GC-BUDGET-0026";
+constexpr const char* k_other_choice = "GC-BUDGET-0044";
+constexpr const char* k_value_outside = "GC-BUDGET-0045";
 
 std::string place_of(const MethodBudget& budget, std::size_t i) {
     return budget.name[i].empty() ? budget.file : budget.file + ", point " + budget.name[i];
@@ -250,11 +253,14 @@ MethodSide side_of_budget(const MethodBudget& budget, const gum::Unit& unit, dou
     add_remarks_of_evaluation("Budget of " + budget.method, of_budget.diagnostics, side.remarks);
     add_remarks_on_U(budget, evaluated, unit, side);
     bool is_refuted = false;
+    bool is_in_doubt = false;
     for (std::size_t i = 0; i < budget.point.size(); ++i) {
         is_refuted = is_refuted || !evaluated.point(i).outputs.front().against.empty();
+        is_in_doubt = is_in_doubt || gum::is_mean_in_doubt(evaluated.point(i), 0);
     }
     for (const gum::Diagnostic& said : of_budget.diagnostics) {
-        if (is_refuted && said.code == k_law_against_evidence) {
+        const bool doubts = said.code == k_other_choice || said.code == k_value_outside;
+        if ((is_refuted && said.code == k_law_against_evidence) || (is_in_doubt && doubts)) {
             side.refuted.push_back(
                 {.side = budget.method, .file = budget.file, .id = {}, .message = said.code, .what = said.what});
         }

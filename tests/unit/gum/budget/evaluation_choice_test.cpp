@@ -69,11 +69,35 @@ TEST(EvaluationChoice, ForcedTellsWhatSpeaksAgainstIt) {
     of.coverage = CoverageChoice::law_of_propagation;
     const BudgetResult result = evaluate_budget(of, 1);
     EXPECT_EQ(result.points[0].outputs[0].against, "second_order");
-    EXPECT_FALSE(result.points[0].outputs[0].monte_carlo.has_value());
+    EXPECT_FALSE(result.points[0].outputs[0].by_monte_carlo);
     EXPECT_TRUE(tells(result, "GC-BUDGET-0026"));
+    EXPECT_THAT(result.notes.front().what,
+                testing::HasSubstr(": the law gives 1.0, from -1.0 to 3.0, and Monte Carlo 1.2, from 0.0 to 4.0"));
     Budget kink = test::budget({"y = abs(x)"}, {input("x", state_uncertainty(0, 1))});
     kink.coverage = CoverageChoice::law_of_propagation;
     EXPECT_THROW((void)evaluate_budget(kink, 1), NoResultError);
+    // Trials outside of the domain of the model tell nothing, and the law is stated without them.
+    Budget logarithm = test::budget({"y = ln(x)"}, {input("x", state_uncertainty(1, 0.5))});
+    logarithm.coverage = CoverageChoice::law_of_propagation;
+    const BudgetResult alone = evaluate_budget(logarithm, 1);
+    EXPECT_FALSE(alone.points[0].outputs[0].monte_carlo.has_value());
+    EXPECT_FALSE(alone.automatic_monte_carlo.has_value());
+    EXPECT_TRUE(tells(alone, "GC-BUDGET-0026"));
+}
+
+// The law: what trials refute of a fear is not held against a law that is forced, as it is not against one that is not.
+TEST(EvaluationChoice, ForcedIsToldExactlyWhereAnotherWouldBeReported) {
+    for (const char* equation : {"y = max(a, b)", "y = abs(a)", "y = a*b", "y = a^3 + b", "y = sin(a*rad/1) + b"}) {
+        for (const double at : {0.6, 1.5, 2.0, 3.0, 8.0}) {
+            Budget of = test::budget({equation},
+                                     {input("a", state_uncertainty(at, 1.0)), input("b", state_uncertainty(0.1, 0.2))});
+            const BudgetResult as_validated = evaluate_budget(of, 1);
+            of.coverage = CoverageChoice::law_of_propagation;
+            const BudgetResult forced = evaluate_budget(of, 1);
+            EXPECT_EQ(tells(forced, "GC-BUDGET-0026"), as_validated.points[0].outputs[0].by_monte_carlo)
+                << equation << " at " << at;
+        }
+    }
 }
 
 // One output without a derivative does not take it from the others.

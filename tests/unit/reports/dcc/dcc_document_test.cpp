@@ -184,6 +184,24 @@ TEST(DccDocument, MapsVerdictsToTheWordsOfTheFormat) {
     EXPECT_TRUE(contains(texts(document, "dcc:conformity"), "pass"));
 }
 
+// A reader of the file alone must learn what the page says of a value and of a verdict.
+TEST(DccDocument, SaysWhatTheModelGivesBesideAMeanOfTrials) {
+    EvaluationRecord record = certified_budget();
+    Result& result = record.results.at(0);
+    result.reported.method = "monte_carlo";
+    result.reported.u = 10.0;
+    result.reported.value = result.value + 9.0;
+    result.reported.printed.value = "50000847";
+    certificate::CertifiedValue& v = record.certificate->tables[0].columns[0].values[0];
+    v.verdict = test::sample_verdict("length", "not_applicable");
+    v.verdict->note =
+        "At the estimates of the input quantities the measurement model gives another value than the mean of the Monte "
+        "Carlo trials, and the rule another verdict: nothing is decided.";
+    const std::string document = checked(record, {});
+    EXPECT_NE(document.find("the measurement model gives another value: " + result.name + ": "), std::string::npos);
+    EXPECT_NE(document.find(v.verdict->note), std::string::npos);
+}
+
 TEST(DccDocument, WritesMonteCarloIntervals) {
     EvaluationRecord record = certified_budget();
     certificate::CertifiedValue& v = record.certificate->tables[0].columns[0].values[0];

@@ -69,5 +69,23 @@ TEST(RefutedSide, ABudgetThatStatesTheLawAgainstItsEvidence) {
     EXPECT_TRUE(reported.refuted.empty());
 }
 
+/// The mean of the trials is in doubt: an agreement that rests on it is not stated.
+TEST(RefutedSide, ABudgetWhoseTrialsChooseOtherwise) {
+    const auto refuted_by = [](const std::string& second) {
+        const jobs::ComparisonJob job = jobs::test::read_comparison(
+            R"("unit": "mm", "correlation": "none", "lab": {"name": "m", "budget": "a.json"},
+               "reference": {"name": "r", "points": [{"point": "1", "value": 100.5, "u": 0.1}]})",
+            {{"a.json", jobs::test::budget_text(
+                            R"j("model": ["h = max(a, b)"], "monte_carlo": {"trials": 20000}, "inputs": {
+                               "a": {"value": 100.2, "u": 1, "unit": "mm"}, "b": {"value": )j" +
+                            second + R"j(, "u": 1, "unit": "mm"}}, "outputs": {"h": {"unit": "mm"}})j")}});
+        const Comparison comparison = evaluate_methods(job);
+        EXPECT_EQ(comparison.summary.front().verdict == "side_refuted", !comparison.refuted.empty());
+        return comparison.refuted.empty() ? std::string() : comparison.refuted.front().message;
+    };
+    EXPECT_EQ(refuted_by("99.8"), "GC-BUDGET-0044");
+    EXPECT_EQ(refuted_by("90"), "");
+}
+
 }  // namespace
 }  // namespace gumcert::reports
