@@ -1,5 +1,7 @@
 #include "issuing/output_forms.h"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <array>
 #include <stdexcept>
@@ -7,6 +9,7 @@
 #include "gum/quantity/diagnostic.h"
 #include "reports/dcc/dcc_document.h"
 #include "reports/forms/comparison_csv.h"
+#include "reports/forms/document_forms.h"
 #include "reports/forms/label.h"
 
 namespace gumcert::issuing {
@@ -19,7 +22,7 @@ std::string pdf(Issue& issue) {
     const IssueOptions& options = issue.options();
     const std::string& attached =
         is_certificate(issue.record(), options.kinds) ? issue.digital_certificate() : std::string();
-    std::string pdf = reports::render_pdf(issue.record(), options.assets, attached, options.worker);
+    std::string pdf = reports::document_as_pdf(issue.view(), options.assets, attached, options.worker);
     if (options.signer == nullptr) {
         return pdf;
     }
@@ -31,12 +34,12 @@ constexpr std::array<OutputForm, 9> k_forms{{
     {.name = "html",
      .ending = ".html",
      .description = "",
-     .render = [](Issue& issue) { return reports::render_html(issue.record(), issue.options().assets); }},
+     .render = [](Issue& issue) { return reports::document_as_html(issue.view(), issue.options().assets); }},
     {.name = "pdf", .ending = ".pdf", .description = "", .render = pdf, .is_signed = true},
     {.name = "text",
      .ending = ".txt",
      .description = "",
-     .render = [](Issue& issue) { return reports::render_text(issue.record(), issue.options().assets); }},
+     .render = [](Issue& issue) { return reports::view_as_text(issue.view()); }},
     {.name = k_digital_certificate,
      .ending = ".xml",
      .description = "digital certificate, XML",
@@ -74,6 +77,13 @@ constexpr std::array<OutputForm, 9> k_forms{{
 }};
 
 }  // namespace
+
+const nlohmann::json& Issue::view() {
+    if (!view_) {
+        view_ = std::make_shared<const nlohmann::json>(reports::view_of_document(record_, options_.assets));
+    }
+    return *view_;
+}
 
 const std::string& Issue::digital_certificate() {
     if (!is_certificate(record_, options_.kinds)) {

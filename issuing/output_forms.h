@@ -1,6 +1,9 @@
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
+
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -22,20 +25,23 @@ struct IssueOptions {
     std::span<const evaluation::Kind> kinds = evaluation::program_kinds();
 };
 
-/// A record on its way to documents. The digital certificate is made and signed once, and the PDF has it attached as it
-/// was signed.
+/// A record on its way to documents. What they show is put together once for all forms. The digital certificate is made and
+/// signed once, and the PDF has it attached as it was signed.
 class Issue {
 public:
     Issue(const reports::EvaluationRecord& record, const IssueOptions& options) : record_(record), options_(options) {}
 
     [[nodiscard]] const reports::EvaluationRecord& record() const { return record_; }
     [[nodiscard]] const IssueOptions& options() const { return options_; }
+    /// reports::view_of_document()
+    [[nodiscard]] const nlohmann::json& view();
     /// \throws gum::InputError  GC-REPORT-0041 of a record that has none
     [[nodiscard]] const std::string& digital_certificate();
 
 private:
     const reports::EvaluationRecord& record_;
     const IssueOptions& options_;
+    std::shared_ptr<const nlohmann::json> view_;
     std::string digital_certificate_;
 };
 

@@ -23,6 +23,12 @@ namespace gumcert::reports {
 /// certificate_view() in the languages of the document. Where the templates were changed, the foot of the pages says it.
 [[nodiscard]] nlohmann::json view_of_document(const EvaluationRecord& record, const RenderAssets& assets);
 
+/// render_html() and render_pdf() of a record whose view_of_document() was made already.
+/// \throws as these
+[[nodiscard]] std::string document_as_html(const nlohmann::json& view, const RenderAssets& assets);
+[[nodiscard]] std::string document_as_pdf(const nlohmann::json& view, const RenderAssets& assets,
+                                          const std::string& dcc, PdfWorker* worker);
+
 /// What stands on every page of a document, whatever the template does: the number of the certificate, its mark while it is
 /// a draft or a specimen, and the digest of templates that were changed.
 [[nodiscard]] std::vector<std::string> texts_of_every_page(const nlohmann::json& view);

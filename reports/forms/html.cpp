@@ -146,10 +146,14 @@ std::string view_as_html(nlohmann::json view, const RenderAssets& assets) {
     return with_pictures(typeset_html(html, view), assets);
 }
 
-std::string render_html(const EvaluationRecord& record, const RenderAssets& assets) {
-    std::string html = view_as_html(view_of_document(record, assets), assets);
+std::string document_as_html(const nlohmann::json& view, const RenderAssets& assets) {
+    std::string html = view_as_html(view, assets);
     require_head(html, "HTML", assets);
     return html;
+}
+
+std::string render_html(const EvaluationRecord& record, const RenderAssets& assets) {
+    return document_as_html(view_of_document(record, assets), assets);
 }
 
 void require_head(std::string_view document, const char* form, const RenderAssets& assets) {

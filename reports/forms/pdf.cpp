@@ -125,11 +125,16 @@ std::string label_as_pdf(const nlohmann::json& view, const RenderAssets& assets,
     return set_by(worker, view, assets, {}, "label.typ");
 }
 
-std::string render_pdf(const EvaluationRecord& record, const RenderAssets& assets, const std::string& dcc,
-                       PdfWorker* worker) {
-    std::string pdf = set_by(worker, view_of_document(record, assets), assets, dcc);
+std::string document_as_pdf(const nlohmann::json& view, const RenderAssets& assets, const std::string& dcc,
+                            PdfWorker* worker) {
+    std::string pdf = set_by(worker, view, assets, dcc);
     require_head(pdf, "PDF", assets);
     return pdf;
+}
+
+std::string render_pdf(const EvaluationRecord& record, const RenderAssets& assets, const std::string& dcc,
+                       PdfWorker* worker) {
+    return document_as_pdf(view_of_document(record, assets), assets, dcc, worker);
 }
 
 std::string render_budget_report_pdf(const EvaluationRecord& record, const RenderAssets& assets, PdfWorker* worker) {

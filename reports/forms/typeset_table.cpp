@@ -106,7 +106,7 @@ bool is_within_a_line(char32_t code) {
                std::u32string_view(U" .=_[]()<>%:+'*&").find(code) != std::u32string_view::npos;
     }
     return (code >= 0xC0 && code <= 0x17F) || (code >= 0x391 && code <= 0x3C9) || (code >= 0x2070 && code <= 0x209C) ||
-           std::u32string_view(U"−µ°²³¹±·").find(code) != std::u32string_view::npos;
+           std::u32string_view(U"−µ°²³¹±·\u00A0").find(code) != std::u32string_view::npos;
 }
 
 /// Characters of a number or its unit besides these: it does not break anywhere.
@@ -134,7 +134,7 @@ bool is_one_line(const json& cell, std::size_t columns) {
         const auto [code, bytes] = text::decode_utf8(words, i);
         const std::size_t step = std::max<std::size_t>(bytes, 1);
         i += step;
-        word = code == ' ' ? 0 : word + step;
+        word = code == ' ' || code == U'\u00A0' ? 0 : word + step;
         const bool is_kept = is_short ? is_within_a_line(code) : is_within_a_number(code);
         if (!is_kept || (is_short && columns > k_many_columns && word >= k_hyphenated)) {
             return false;
@@ -183,9 +183,14 @@ void typeset(json& table, const std::set<std::string>& letters) {
             if (c >= columns.size()) {
                 continue;
             }
-            const std::string words = cell.at("text").get<std::string>() + cell.at("pad").get<std::string>();
-            const std::size_t length = seen_characters(words);
             const bool numbers = columns[c].at("align") == "number";
+            std::string words = cell.at("text").get<std::string>() + cell.at("pad").get<std::string>();
+            if (!numbers) {
+                for (const json& other : cell.at("also")) {  // it stands behind the first language
+                    words += " " + other.at("text").get<std::string>();
+                }
+            }
+            const std::size_t length = seen_characters(words);
             most[c] = std::max(most[c], numbers ? length : 0);
             if (!numbers || cell["form"] == "digits" || cell["form"] == "number") {
                 (numbers && plain_number(words).is_one ? of_digits : longest)[c].add(words, length);

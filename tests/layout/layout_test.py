@@ -118,6 +118,16 @@ def long_job(points: int) -> dict:
             "rule": {"id": "DR-03"}}]}}
 
 
+def table_at_the_end(points: int) -> dict:
+    """The same without limits and plot: little stands behind the table. Remarks make some rows higher."""
+    job = long_job(points)
+    del job["certificate"]["specifications"]
+    for point in job["points"][4::9]:
+        point["remark"] = "jaws cleaned before this point, second run"
+    job["points"] = {"list": job["points"], "columns": {"remark": "text"}}
+    return job | {"tables": [{"plot": "none"}]}
+
+
 LONG = (64, 66, 68, 70)
 # Columns side by side: 12, 15 and 18.
 WIDE = ((5, 5), (5, 5, 3), (5, 5, 3, 3))
@@ -174,6 +184,7 @@ def main() -> int:
             problems += found
         made_up = [(f"{2 + sum(results)} columns", wide_job(results), LANGUAGES) for results in WIDE]
         made_up += [(f"{points} points", long_job(points), ("en",)) for points in LONG]
+        made_up += [(f"{points} points, table at the end", table_at_the_end(points), ("en",)) for points in LONG]
         for found in pool.map(lambda job: made_up_problems(arguments.program, *job), made_up):
             problems += found
     for problem in problems:

@@ -15,7 +15,7 @@ MILLIMETRE = 72 / 25.4
 LEFT, RIGHT, TOP, BOTTOM = 20 * MILLIMETRE, 18 * MILLIMETRE, 22 * MILLIMETRE, 20 * MILLIMETRE  # as in certificate.typ
 SLACK = 1.0  # what hangs over an edge by less is not seen
 LEAST_FILLED = 0.3  # of the height of the text area, on every page but the last
-LEAST_LAST_LINES = 6  # what the verdicts mean, and the end: the rows of a long table do not stay with them
+LEAST_LAST_LINES = 7  # what the verdicts mean, and the end, with rows of the table before them
 XHTML = "{http://www.w3.org/1999/xhtml}"
 
 

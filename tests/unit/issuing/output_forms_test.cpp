@@ -50,6 +50,16 @@ TEST(OutputForms, OfEveryKindAreInTheTable) {
     }
 }
 
+TEST(OutputForms, OfOneIssueAreThoseOfEachAlone) {
+    const EvaluationRecord record = test::certified_budget_record();
+    const IssueOptions options = options_without_signer();
+    Issue issue(record, options);
+    for (int time = 0; time < 2; ++time) {  // what they show is put together once, and no form changes it
+        EXPECT_EQ(output_form("html").render(issue), reports::render_html(record, options.assets));
+        EXPECT_EQ(output_form("text").render(issue), reports::render_text(record, options.assets));
+    }
+}
+
 TEST(OutputForms, RefuseWhatTheyDoNotApplyTo) {
     const IssueOptions options = options_without_signer();
     const auto code_of = [&](const EvaluationRecord& record, const char* form) -> std::string {

@@ -65,7 +65,8 @@ std::string line_of_row(const std::string& text, const std::string& align = "lef
 }
 
 TEST(TypesetTable, TellsRowsThatAreOneLineAtAnyWidth) {
-    for (const char* text : {"", "normal", "U_x[2]", "mg g", "µm", "k = 2", "–", "größer"}) {
+    for (const char* text :
+         {"", "normal", "U_x[2]", "mg g", "µm", "k = 2", "–", "größer", "10\u00A0V\u00A0AC", "0.5\u00A0mm"}) {
         EXPECT_EQ(line_of_row(text), "one") << text;
     }
     for (const char* text : {"DMM-04", "mg/g", "1–2", "a|b", "x}y", "a,(b)", "→", "合格", "soft\u00ADhyphen",
@@ -85,8 +86,12 @@ TEST(TypesetTable, TellsRowsThatAreOneLineAtAnyWidth) {
 }
 
 TEST(TypesetTable, KnowsThatWordsAreHyphenatedInATableOfManyColumns) {
-    for (const auto& [columns, verdict, line] :
-         {std::tuple{8, "undetermined", "one"}, {9, "undetermined", ""}, {9, "größeres", ""}, {9, "pass", "one"}}) {
+    for (const auto& [columns, verdict, line] : {std::tuple{8, "undetermined", "one"},
+                                                 {9, "100\u00A0mV\u00A0AC", "one"},
+                                                 {9, "undeter\u00A0min", "one"},
+                                                 {9, "undetermined", ""},
+                                                 {9, "größeres", ""},
+                                                 {9, "pass", "one"}}) {
         std::vector<json> row(static_cast<std::size_t>(columns), table_cell("1.5"));
         std::vector<std::string> aligned(row.size(), "number");
         row.back() = table_cell(verdict, "left");
@@ -113,6 +118,11 @@ TEST(TypesetTable, NamesTheLongestOfAColumn) {
     EXPECT_EQ(table["columns"][1]["longest"], json::array({{{"text", "−12.500"}}, {{"text", "22.5"}}}));
     EXPECT_EQ(table["columns"][2]["longest"], json::array({json::object({{"text", "33.25"}})})) << "of its numbers";
     EXPECT_EQ(table["digits"], "43") << "7 and 36, whatever they are";
+    json both = table_cell("pass", "left");
+    both["also"] = {{{"text", "bestanden"}}};
+    EXPECT_EQ(typeset_table({{both}}, {"left"})["columns"][0]["longest"],
+              json::array({json::object({{"text", "pass bestanden"}})}))
+        << "the second language stands behind the first";
 }
 
 /// Law: a number has the form "digits" exactly where none of its groups of digits has more than four.
