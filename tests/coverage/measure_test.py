@@ -2,6 +2,7 @@
 
 import pathlib
 import sys
+import tempfile
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
@@ -25,6 +26,15 @@ class Coverage(unittest.TestCase):
     def test_ways_of_exceptions_are_no_branches(self):
         counted = measure.counts_of([report("gum/a.cpp", line(1, 2, [(2, False), (0, False), (0, True)]), line(2, 1, [(1, False), (0, True)]))])
         self.assertEqual(measure.sums_of(*counted), {"gum": [2, 2, 2, 1]})
+
+    def test_a_closing_bracket_is_no_condition(self):
+        with tempfile.TemporaryDirectory() as folder:
+            source = pathlib.Path(folder) / "gum/a.cpp"
+            source.parent.mkdir()
+            source.write_text("if (a ||\n    b) {\n    c();\n    }\n});\n", encoding="utf-8")
+            ways = [(1, False), (0, False)]
+            counted = measure.counts_of([report("gum/a.cpp", *(line(number, 1, ways) for number in (1, 2, 3, 4, 5)))], pathlib.Path(folder))
+        self.assertEqual(sorted(counted[1]["gum/a.cpp"]), [1, 2, 3])
 
     def test_instances_of_a_template_are_one(self):
         counted = measure.counts_of([report("gum/a.cpp", line(1, 1, [(1, False), (0, False)]), line(1, 1, [(0, False), (1, False)]))])

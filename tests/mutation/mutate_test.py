@@ -2,6 +2,7 @@
 
 import pathlib
 import sys
+import tempfile
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
@@ -57,6 +58,29 @@ class Commands(unittest.TestCase):
         self.assertEqual(run_mutants.link_command(self.LINK, "m.o", "m"),
                          ["/usr/bin/c++", "-O2", "-Wl,-z,muldefs", "m.o", "/x/first.o", "-Wl,--whole-archive", "/x/liba.a",
                           "-Wl,--no-whole-archive", "t.o", "-o", "m", "liba.a"])
+
+
+class Tests(unittest.TestCase):
+    def test_beside_a_source_are_asked_first(self):
+        self.assertEqual(run_mutants.suites_beside("gum/no_such.cpp"), None)
+        for path in run_mutants.sources(("gum/conformity",)):
+            beside = run_mutants.ROOT / "tests/unit" / path.replace(".cpp", "_test.cpp")
+            self.assertEqual(run_mutants.suites_beside(path) is not None, beside.exists(), path)
+
+    def test_end_by_the_time_of_the_processor_alone(self):
+        def ran(folder, text, seconds):
+            program = pathlib.Path(folder) / "program"
+            program.write_text(f"#!/bin/sh\n{text}\n")
+            program.chmod(0o755)
+            return campaign.run_test(program, seconds, None)[0]
+
+        with tempfile.TemporaryDirectory() as folder:
+            campaign = run_mutants.Campaign(pathlib.Path(folder), pathlib.Path(folder) / "mutants")
+            (pathlib.Path(folder) / "tests").mkdir()
+            self.assertEqual(ran(folder, "sleep 2; exit 0", 1), 0)
+            self.assertEqual(ran(folder, "exit 3", 1), 3)
+            self.assertEqual(ran(folder, "kill -SEGV $$", 1), -11)
+            self.assertEqual(ran(folder, "while :; do :; done", 1), None)
 
 
 class Page(unittest.TestCase):

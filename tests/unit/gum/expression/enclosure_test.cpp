@@ -67,6 +67,10 @@ long double exactly(Operation operation, long double a, long double b) {
             return std::min(a, b);
         case maximum:
             return std::max(a, b);
+        case celsius:
+            return a - 273.15;
+        case kelvin:
+            return a + 273.15;
         default:
             return -a;
     }
@@ -95,7 +99,9 @@ const std::vector<Operation> k_operations{negate,
                                           Operation::atan2,
                                           minimum,
                                           maximum,
-                                          Operation::hypot};
+                                          Operation::hypot,
+                                          celsius,
+                                          kelvin};
 
 Enclosure random_enclosure(std::mt19937_64& random) {
     std::uniform_real_distribution<double> exponent(-3.0, 1.2), sign(-1.0, 1.0), width(-6.0, 0.8);

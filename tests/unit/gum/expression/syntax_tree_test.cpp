@@ -119,6 +119,7 @@ TEST(Grammar, EveryProblemHasItsCodeAndColumn) {
         {"y = hypot(a, b, c)", "0013 m/0, column 5"},
         {"y = a + аb", "0014 m/0, column 9"},  // the first letter is Cyrillic
         {"y = e\u0301", "0014 m/0, column 5"},
+        {"y = \u0301", "0014 m/0, column 5"},
         {deep_parentheses, "0016 m/0, column 205"},
         {"y = sin + a", "0023 m/0, column 5"},
         {"sin = a", "0023 m/0, column 1"},
@@ -128,6 +129,19 @@ TEST(Grammar, EveryProblemHasItsCodeAndColumn) {
     for (const auto& [text, expected] : table) {
         EXPECT_EQ(codes(problems_of({text}, numbers({"a", "b", "c"}))), expected) << text;
     }
+}
+
+TEST(Grammar, ExcerptsAreShortAndCutNoCharacter) {
+    SyntaxTree tree;
+    const auto excerpt = [&](const std::string& text) {
+        tree.text = text;
+        return tree.excerpt({.begin = 0, .end = static_cast<std::uint32_t>(text.size())});
+    };
+    EXPECT_EQ(excerpt(std::string(44, 'a')), std::string(44, 'a'));
+    EXPECT_EQ(excerpt(std::string(25, 'a') + std::string(20, 'b')),
+              std::string(20, 'a') + " … " + std::string(20, 'b'));
+    EXPECT_EQ(excerpt(std::string(19, 'a') + "é" + std::string(10, 'b') + "é" + std::string(19, 'c')),
+              std::string(19, 'a') + " … " + std::string(19, 'c'));
 }
 
 TEST(Grammar, MessagesSayWhatToDo) {

@@ -43,6 +43,9 @@ TEST(UnitCheck, SumsBalance) {
     EXPECT_EQ(code("y = hypot(x, l) + sqrt(A_m) + abs(x)"), "");
     EXPECT_EQ(code("y = x + 1"), "0030 m/0, column 7");
     EXPECT_EQ(code("y = x + 0 - max(x, 0) + min(0, l, -0)"), "");
+    EXPECT_EQ(code("y = 0 + x + l"), "");
+    EXPECT_EQ(code("y = 0 + x + T"), "0030 m/0, column 11");
+    EXPECT_EQ(code("y = (0 + 0) + x - min(0, 0)"), "");
     const std::string text = messages(problems_of({"y = 2*x + T"}, checked_quantities()));
     EXPECT_THAT(text, HasSubstr("m + K"));
     EXPECT_THAT(text, HasSubstr("\"2*x\" is in m"));
@@ -262,6 +265,29 @@ TEST(UnitCheck, CuresLeadToTheRightNumber) {
         }
         EXPECT_NEAR(system.evaluate(at)(0), cure.value, 1e-12 + 1e-12 * std::fabs(cure.value));
     }
+}
+
+TEST(UnitCheck, NamesTheOperandThatIsMeant) {
+    std::vector<InputSymbol> inputs = checked_quantities();
+    inputs.push_back(input("t_0", "degC", 0.0));
+    inputs.push_back(input("t_F", "degF"));
+    inputs.push_back(input("v", "rpm"));
+    inputs.push_back(input("f_v", "Hz"));
+    const auto text = [&](const std::string& equation) { return messages(problems_of({equation}, inputs)); };
+    // The Celsius temperature, not the difference beside it.
+    for (const char* equation : {"y = hypot(t, dT)", "y = hypot(dT, t)", "y = hypot(T - T, t)"}) {
+        EXPECT_THAT(text(equation), HasSubstr("hypot of degC, a Celsius temperature")) << equation;
+    }
+    EXPECT_THAT(text("y = atan2(dT, t)"), HasSubstr("atan2 of degC, a Celsius temperature"));
+    // The Fahrenheit temperature, on either side of a factor; its zero has a name that is not taken.
+    for (const char* equation : {"y = t_F*R", "y = R*t_F", "y = t_F/R"}) {
+        EXPECT_THAT(text(equation), HasSubstr("\"t_F\", a Fahrenheit temperature, is a factor")) << equation;
+        EXPECT_THAT(text(equation), HasSubstr("Write (t_F - t_0) for \"t_F\"")) << equation;
+    }
+    EXPECT_THAT(text("y = t_F*R + (t - t_0)*R"), HasSubstr("Write (t_F - t_0F) for \"t_F\""));
+    // The term that has an angle more.
+    EXPECT_THAT(text("y = v - f_v"), HasSubstr("divide the first by a turn"));
+    EXPECT_THAT(text("y = f_v - v"), HasSubstr("divide the second by a turn"));
 }
 
 TEST(UnitCheck, ResultsWithoutAUnitHaveOneThatTheInputsUse) {
