@@ -351,6 +351,22 @@ std::string action_of(const GroupTest& test, const RotaryTableMeasurement& measu
     return "";
 }
 
+gum::Diagnostic note_of_rest(const ContradictionLeft& left) {
+    constexpr double k_least_printed = 1e-4;
+    const std::string p = left.p_value < k_least_printed ? "< 0.0001" : "= " + text::fixed(left.p_value, 4);
+    return {.code = k_unexplained_rest,
+            .where = "lengths",
+            .what = std::string("with these errors taken off, ") +
+                    (left.is_of_a_group ? "a group of distances still deviates from the others"
+                                        : "the distances still contradict the stated uncertainties") +
+                    " (p " + p + "): the cause is not, or not only, what is named",
+            .rule = "causes that are named explain the distances when these agree without them: p is at least 0.001",
+            .action =
+                "Look for another cause that would look alike, or for a second one, before the data are "
+                "corrected; measure again where none is found.",
+            .severity = gum::Severity::warning};
+}
+
 }  // namespace
 
 std::vector<gum::Diagnostic> group_notes(const GroupTests& groups, const RotaryTableMeasurement& measurement) {
@@ -367,6 +383,9 @@ std::vector<gum::Diagnostic> group_notes(const GroupTests& groups, const RotaryT
                              .action = action_of(test, measurement) + exclusion_of(test, measurement),
                              .severity = gum::Severity::warning});
         }
+    }
+    if (groups.left && !notes.empty()) {
+        notes.push_back(note_of_rest(*groups.left));
     }
     return notes;
 }

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -100,6 +101,15 @@ struct DriftEstimate {
     double minimal_detectable = 0.0;          ///< found with a probability of 80 %, [m]
 };
 
+/// What still contradicts the weights once all errors that are told are taken off: of the global test, or else of the least
+/// probable group.
+struct ContradictionLeft {
+    double chi_square = 0.0;
+    double degrees_of_freedom = 0.0;
+    double p_value = 0.0;
+    bool is_of_a_group = false;
+};
+
 struct GroupTests {
     /// Of each kind the group with the largest test value and all that are suspicious; those that are suspicious first,
     /// the least probable one first of all.
@@ -110,6 +120,8 @@ struct GroupTests {
     /// Robust standard deviation of the test values of the visits, nearly 1 where the weights are right. Weights that
     /// were estimated with a disturbed visit in the data are too small, and all test values with them.
     double scale = 1.0;
+    /// None where nothing does, or where nothing was taken off: then what is told may be all that is wrong.
+    std::optional<ContradictionLeft> left = {};
 };
 
 struct GroupTestOptions {

@@ -757,6 +757,30 @@ bool is_same_group(const GroupTest& a, const GroupTest& b) {
            a.angle == b.angle && a.last_angle == b.last_angle;
 }
 
+/// What contradicts a measurement without the errors that are told: by the global test where all variances are stated, which an
+/// error that is told may have refuted; else, where that test has nothing to say, a group.
+/// \param without  at its own variances
+/// \param beside   groups of that measurement
+std::optional<ContradictionLeft> contradiction_left(JointAdjustment without, const GroupTests& beside,
+                                                    const GroupSetting& setting) {
+    constexpr double k_refuting = 0.001;  // as of the global test of a result
+    const TableRepeatability& table = without.measurement().table_repeatability;
+    if (!setting.estimated.length && table.mode != RepeatabilityMode::estimate) {
+        without.set_weights(start_variances(table));
+        require_convergence(without.adjustment().refine(solver_of_a_check(setting.options)), without.measurement());
+        const NormalEquations normal = without.adjustment().linearise();
+        const auto nu = static_cast<double>(normal.observation_count() - normal.parameter_count());
+        const double p = nu > 0.0 ? setting.group_options.chi_square_upper_tail(normal.chi_square(), nu) : 1.0;
+        return p < k_refuting ? std::optional(ContradictionLeft{normal.chi_square(), nu, p}) : std::nullopt;
+    }
+    const auto worst = std::ranges::find_if(
+        beside.tests, [](const GroupTest& test) { return is_told_error(test) && test.p_value < k_refuting; });
+    return worst == beside.tests.end()
+               ? std::nullopt
+               : std::optional(ContradictionLeft{worst->chi_square, static_cast<double>(worst->degrees_of_freedom),
+                                                 worst->p_value, true});
+}
+
 /// Groups with the sizes of those that are told: of one adjustment with all of them. What the others explain is not told, and a
 /// scale that shows itself without them is.
 /// \param told  that the search begins with
@@ -792,6 +816,7 @@ std::optional<GroupTests> with_sizes_from(GroupTests groups, std::vector<GroupTe
         }
         if (are_all && added == 0) {
             put_first(groups.tests, told, std::nullopt);
+            groups.left = contradiction_left(own, beside, setting);
             return groups;
         }
     }
@@ -802,7 +827,10 @@ std::optional<GroupTests> with_sizes_from(GroupTests groups, std::vector<GroupTe
 
 /// The same from all that the linearised model shows, or else from the first of it and one after the other. No size is told of several
 /// where neither comes to an end.
-GroupTests with_joint_sizes(GroupTests groups, const JointAdjustment& adjustment, const GroupSetting& setting) {
+GroupTests with_joint_sizes(GroupTests groups, const JointAdjustment& adjustment, const GroupSetting& of_result) {
+    // What a group does to a distance that was left out is not among its columns: it would be told as one that has no error.
+    const GroupSetting setting{of_result.estimated, of_result.stochastic, of_result.options, of_result.group_options,
+                               adjustment.active()};
     std::vector<GroupTest> told;
     std::ranges::copy_if(groups.tests, std::back_inserter(told), is_told_error);
     if (told.empty()) {
@@ -817,7 +845,11 @@ GroupTests with_joint_sizes(GroupTests groups, const JointAdjustment& adjustment
             const bool is_as_before = std::ranges::count_if(groups.tests, is_told_error) == 1 &&
                                       std::ranges::count_if(found->tests, is_told_error) == 1 &&
                                       is_same_group(groups.tests.front(), found->tests.front());
-            return is_as_before ? std::move(groups) : std::move(*found);
+            if (is_as_before) {
+                groups.left = found->left;
+                return groups;
+            }
+            return std::move(*found);
         }
     }
     if (std::ranges::count_if(groups.tests, is_told_error) > 1) {
