@@ -104,8 +104,6 @@ struct DriftEstimate {
 /// What still contradicts the weights once all errors that are told are taken off: of the global test, or else of the least
 /// probable group.
 struct ContradictionLeft {
-    double chi_square = 0.0;
-    double degrees_of_freedom = 0.0;
     double p_value = 0.0;
     bool is_of_a_group = false;
 };

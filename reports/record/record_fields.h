@@ -626,6 +626,7 @@ void describe(Archive& a, Struct& r) {
     a("alpha", r.alpha, NumberRule::probability);
     a("scale", r.scale, NumberRule::not_negative);
     a("kinds", r.kinds);
+    a.stated("unexplained_p_value", r.unexplained_p_value);
 }
 
 template <class Archive, certificate::Described<ReversalTestRow> Struct>

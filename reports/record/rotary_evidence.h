@@ -34,6 +34,7 @@ struct GroupTestSummary {
     double alpha = 0.001;             ///< probability that a sound measurement makes any group of any kind suspicious
     Shown<double> scale = {1.0};      ///< robust standard deviation of the test values of the visits
     std::vector<GroupTestRow> kinds;  ///< suspicious ones first, the least probable one first of all
+    std::optional<double> unexplained_p_value = {};  ///< of what refutes the measurement without what is suspicious
 };
 
 /// Whether the reversal of one error motion is the same at all angles.

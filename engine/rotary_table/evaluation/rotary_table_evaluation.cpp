@@ -771,14 +771,13 @@ std::optional<ContradictionLeft> contradiction_left(JointAdjustment without, con
         const NormalEquations normal = without.adjustment().linearise();
         const auto nu = static_cast<double>(normal.observation_count() - normal.parameter_count());
         const double p = nu > 0.0 ? setting.group_options.chi_square_upper_tail(normal.chi_square(), nu) : 1.0;
-        return p < k_refuting ? std::optional(ContradictionLeft{normal.chi_square(), nu, p}) : std::nullopt;
+        return p < k_refuting ? std::optional(ContradictionLeft{.p_value = p}) : std::nullopt;
     }
     const auto worst = std::ranges::find_if(
         beside.tests, [](const GroupTest& test) { return is_told_error(test) && test.p_value < k_refuting; });
     return worst == beside.tests.end()
                ? std::nullopt
-               : std::optional(ContradictionLeft{worst->chi_square, static_cast<double>(worst->degrees_of_freedom),
-                                                 worst->p_value, true});
+               : std::optional(ContradictionLeft{.p_value = worst->p_value, .is_of_a_group = true});
 }
 
 /// Groups with the sizes of those that are told: of one adjustment with all of them. What the others explain is not told, and a

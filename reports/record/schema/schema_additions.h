@@ -71,6 +71,9 @@ inline constexpr SentenceOfValue k_sentences_of_values[] = {
     {"group_tests/alpha",
      "probability that a sound measurement makes any group of any kind suspicious, or is warned of its fixture"},
     {"group_tests/scale", "robust standard deviation of the test values of the visits"},
+    {"group_tests/unexplained_p_value",
+     "of the global test, or of the least probable group where variances are estimated, without the errors that are "
+     "told; absent: it is 0.001 or more, or nothing is told"},
     {"reversal_model/model",
      "constant: one reversal of all angles; by_angle: one of each, and `reversal` holds their means"},
     {"reversal_model/alpha", "probability that any of the tests refutes reversals that are constant"},

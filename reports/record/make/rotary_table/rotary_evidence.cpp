@@ -107,6 +107,9 @@ void fill_group_tests(reports::RotaryTable& rotary, const engine::GroupTests& gr
             *found = group_row(test, measurement);
         }
     }
+    if (groups.left) {
+        summary.unexplained_p_value = groups.left->p_value;
+    }
     rotary.group_tests = std::move(summary);
 }
 

@@ -188,6 +188,22 @@ TEST(GroupNotes, TellNoSizeThatIsNotDeterminedBesideTheOthers) {
     }
 }
 
+/// What is told must not stand as the cause where the program knows that it explains too little.
+TEST(GroupNotes, SayWhereWhatIsToldDoesNotExplainTheDistances) {
+    GroupTests groups{.tests = {suspicious(GroupKind::fixture_place)}, .visits = {}};
+    EXPECT_EQ(group_notes(groups, two_stations()).size(), 1U);
+    groups.left = ContradictionLeft{.p_value = 0.00089};
+    const std::vector<gum::Diagnostic> notes = group_notes(groups, two_stations());
+    ASSERT_EQ(notes.size(), 2U);
+    EXPECT_EQ(notes[1].code, k_unexplained_rest);
+    EXPECT_THAT(notes[1].what, HasSubstr("still contradict the stated uncertainties (p = 0.0009)"));
+    groups.left = ContradictionLeft{.p_value = 1e-9, .is_of_a_group = true};
+    EXPECT_THAT(group_notes(groups, two_stations())[1].what,
+                HasSubstr("a group of distances still deviates from the others (p < 0.0001)"));
+    groups.tests[0].suspicious = false;  // nothing was taken off
+    EXPECT_TRUE(group_notes(groups, two_stations()).empty());
+}
+
 TEST(GroupNotes, SayNothingOfGroupsThatAreNotSuspicious) {
     GroupTest sound = suspicious(GroupKind::drift);
     sound.suspicious = false;
