@@ -289,7 +289,7 @@ std::vector<bool> take_waivers(AuditReport& report, std::span<const certificate:
         if (fits || fits_gate) {
             report.subject.waivers.push_back(waiver);
         }
-        taken.push_back(fits);
+        taken.push_back(fits || fits_gate);
     }
     if (std::find(taken.begin(), taken.end(), true) != taken.end()) {
         std::erase_if(report.findings, [](const AuditFinding& finding) { return finding.is_conclusion; });

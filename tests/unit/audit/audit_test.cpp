@@ -111,6 +111,12 @@ TEST(Audit, KnowsWhatSomebodyAccepts) {
     EXPECT_EQ(accepted.subject.waivers.size(), report.subject.waivers.size());
     EXPECT_EQ(accepted.subject.not_read, report.subject.not_read);
 
+    // What the gates of its certificate found is accepted there: the waiver fits.
+    AuditSubject certified = subject;
+    certified.certificate.emplace();
+    certified.certificate->findings.push_back({.id = "Z09"});
+    EXPECT_TRUE(audit(certified, rules).subject.not_read.empty());
+
     AuditFinding of_gate = half;
     of_gate.of_gate = true;
     EXPECT_EQ(waiver_of(of_gate, report.subject.waivers), nullptr);
