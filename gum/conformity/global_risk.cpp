@@ -11,6 +11,7 @@
 
 #include "gum/argument_check.h"
 #include "gum/coverage.h"
+#include "gum/quantity/golden_section.h"
 #include "gum/quantity/special_values.h"
 
 namespace gumcert::gum {
@@ -202,29 +203,13 @@ double largest_false_accept(const ToleranceLimits& tolerance, const ToleranceLim
             best = i;
         }
     }
-    double a = low + (high - low) * std::max(0, best - 1) / k_steps;
-    double b = low + (high - low) * std::min(k_steps, best + 1) / k_steps;
-    const double ratio = std::numbers::phi - 1.0;
-    double c = b - ratio * (b - a);
-    double d = a + ratio * (b - a);
-    double at_c = risk(c);
-    double at_d = risk(d);
-    while (b - a > 1e-6) {  // the square of it is the relative error of the maximum
-        if (at_c > at_d) {
-            b = d;
-            d = c;
-            at_d = at_c;
-            c = b - ratio * (b - a);
-            at_c = risk(c);
-        } else {
-            a = c;
-            c = d;
-            at_c = at_d;
-            d = a + ratio * (b - a);
-            at_d = risk(d);
-        }
-    }
-    return std::max({most, at_c, at_d});
+    const double spacing = (high - low) / k_steps;
+    // A cut leaves 0.618 of the way. The square of what is left is the relative error of the maximum.
+    constexpr double k_left = 1e-6;
+    const double from = low + spacing * std::max(0, best - 1), to = low + spacing * std::min(k_steps, best + 1);
+    const int cuts = static_cast<int>(std::ceil(std::log((to - from) / k_left) / std::log(std::numbers::phi)));
+    const double at = least_by_golden_section([&risk](double x) { return -risk(x); }, from, to, cuts);
+    return std::max(most, risk(at));
 }
 
 double population_deviation(double half_tolerance, double reliability) {
