@@ -826,9 +826,10 @@ std::optional<GroupTests> with_sizes_from(GroupTests groups, std::vector<GroupTe
 
 /// The same from all that the linearised model shows, or else from the first of it and one after the other. No size is told of several
 /// where neither comes to an end.
-GroupTests with_joint_sizes(GroupTests groups, const JointAdjustment& adjustment, const GroupSetting& of_result) {
-    // What a group does to a distance that was left out is not among its columns: it would be told as one that has no error.
-    const GroupSetting setting{of_result.estimated, of_result.stochastic, of_result.options, of_result.group_options,
+GroupTests with_joint_sizes(GroupTests groups, const JointAdjustment& adjustment, const GroupSetting& setting) {
+    // What a group does to a distance that was left out is not among its columns, and may contradict the others there: only what
+    // is left without these distances, too, counts.
+    const GroupSetting of_used{setting.estimated, setting.stochastic, setting.options, setting.group_options,
                                adjustment.active()};
     std::vector<GroupTest> told;
     std::ranges::copy_if(groups.tests, std::back_inserter(told), is_told_error);
@@ -839,7 +840,12 @@ GroupTests with_joint_sizes(GroupTests groups, const JointAdjustment& adjustment
         if (one_by_one) {
             told.resize(1);
         }
-        if (auto found = with_sizes_from(groups, told, one_by_one ? 1 : groups.tests.size(), adjustment, setting)) {
+        const std::size_t at_once = one_by_one ? 1 : groups.tests.size();
+        if (auto found = with_sizes_from(groups, told, at_once, adjustment, setting)) {
+            if (found->left) {
+                const auto again = with_sizes_from(groups, told, at_once, adjustment, of_used);
+                found->left = again ? again->left : std::nullopt;
+            }
             // One that is alone has its size already.
             const bool is_as_before = std::ranges::count_if(groups.tests, is_told_error) == 1 &&
                                       std::ranges::count_if(found->tests, is_told_error) == 1 &&

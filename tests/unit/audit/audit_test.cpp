@@ -114,7 +114,9 @@ TEST(Audit, KnowsWhatSomebodyAccepts) {
     // What the gates of its certificate found is accepted there: the waiver fits.
     AuditSubject certified = subject;
     certified.certificate.emplace();
-    certified.certificate->findings.push_back({.id = "Z09"});
+    certificate::Finding of_gates;
+    of_gates.id = "Z09";
+    certified.certificate->findings.push_back(of_gates);
     EXPECT_TRUE(audit(certified, rules).subject.not_read.empty());
 
     AuditFinding of_gate = half;
