@@ -50,7 +50,7 @@ WorstPoint worst_point(const BudgetResult& result, const std::string& output, co
     for (const BudgetPointResult& point : result.points) {
         for (std::size_t i = 0; i < point.outputs.size(); ++i) {
             const BudgetOutputResult& of = point.outputs[i];
-            const double here = of.name == output && of.by_monte_carlo ? measure(point, i) : 0.0;
+            const double here = of.name == output ? measure(point, i) : 0.0;
             if (here > most) {
                 most = here;
                 worst.at = &point;
@@ -120,8 +120,8 @@ std::vector<double> shares_of_other_choices(const BudgetPointResult& point, std:
 std::optional<Diagnostic> other_choice_message(const Budget& budget, const BudgetResult& result,
                                                const std::string& output) {
     const WorstPoint worst = worst_point(result, output, [](const BudgetPointResult& point, std::size_t column) {
-        const double share = point.outputs[column].other_choice;
-        return share >= k_other_choice_matters ? share : 0.0;
+        const BudgetOutputResult& of = point.outputs[column];
+        return of.by_monte_carlo && of.other_choice >= k_other_choice_matters ? of.other_choice : 0.0;
     });
     if (worst.at == nullptr) {
         return std::nullopt;
@@ -150,8 +150,9 @@ std::optional<Diagnostic> other_choice_message(const Budget& budget, const Budge
 std::optional<Diagnostic> value_outside_message(const Budget& budget, const BudgetResult& result,
                                                 const std::string& output) {
     const WorstPoint worst = worst_point(result, output, [](const BudgetPointResult& point, std::size_t column) {
-        const double beyond = outside(point, column);
-        return point.outputs[column].other_choice < k_other_choice_matters && beyond > k_same_on_mean ? beyond : 0.0;
+        const BudgetOutputResult& of = point.outputs[column];
+        const double beyond = of.by_monte_carlo ? outside(point, column) : 0.0;
+        return of.other_choice < k_other_choice_matters && beyond > k_same_on_mean ? beyond : 0.0;
     });
     if (worst.at == nullptr) {
         return std::nullopt;
@@ -182,38 +183,29 @@ bool is_mean_in_doubt(const BudgetPointResult& point, std::size_t output) {
 
 std::string law_beside_trials(const Budget& budget, const BudgetResult& result, const std::string& output,
                               const std::string& reason) {
-    const BudgetPointResult* worst = nullptr;
-    std::size_t column = 0;
-    double most = -1.0;
-    for (const BudgetPointResult& point : result.points) {
-        for (std::size_t i = 0; i < point.outputs.size(); ++i) {
-            const BudgetOutputResult& of = point.outputs[i];
-            if (of.name != output || of.against != reason || !of.has_u || !of.monte_carlo || !of.expanded_uncertainty) {
-                continue;
-            }
-            const double value = point.propagation.value(static_cast<Eigen::Index>(i));
-            const double U = *of.expanded_uncertainty;
-            const CoverageInterval& interval = of.monte_carlo->symmetric;
-            const double apart = std::max(std::abs(value - U - interval.low), std::abs(value + U - interval.high));
-            const double scale = half_width(*of.monte_carlo);
-            if (scale > 0.0 && apart / scale > most) {
-                most = apart / scale;
-                worst = &point;
-                column = i;
-            }
+    const WorstPoint worst = worst_point(result, output, [&reason](const BudgetPointResult& point, std::size_t column) {
+        const BudgetOutputResult& of = point.outputs[column];
+        if (of.against != reason || !of.has_u || !of.monte_carlo || !of.expanded_uncertainty) {
+            return 0.0;
         }
-    }
-    if (worst == nullptr) {
+        const double value = point.propagation.value(static_cast<Eigen::Index>(column));
+        const double U = *of.expanded_uncertainty;
+        const CoverageInterval& interval = of.monte_carlo->symmetric;
+        const double apart = std::max(std::abs(value - U - interval.low), std::abs(value + U - interval.high));
+        const double scale = half_width(*of.monte_carlo);
+        return scale > 0.0 ? apart / scale : 0.0;
+    });
+    if (worst.at == nullptr) {
         return "";
     }
-    const BudgetOutputResult& of = worst->outputs[column];
+    const BudgetOutputResult& of = worst.at->outputs[worst.column];
     const double u = digits_by(of);
     const auto print = [&](double si) { return in_unit(si, u, of.unit); };
-    const double value = worst->propagation.value(static_cast<Eigen::Index>(column));
-    const bool is_one_of_many = worst->point && result.points.size() > 1;
+    const double value = worst.value();
+    const bool is_one_of_many = worst.at->point && result.points.size() > 1;
     const double U = *of.expanded_uncertainty;
-    return (is_one_of_many ? ": at point " + budget.points[*worst->point].name + " the law" : ": the law") + " gives " +
-           print(value) + ", from " + print(value - U) + " to " + print(value + U) + ", and Monte Carlo " +
+    return (is_one_of_many ? ": at point " + budget.points[*worst.at->point].name + " the law" : ": the law") +
+           " gives " + print(value) + ", from " + print(value - U) + " to " + print(value + U) + ", and Monte Carlo " +
            print(of.monte_carlo->mean) + ", from " + print(of.monte_carlo->symmetric.low) + " to " +
            print(of.monte_carlo->symmetric.high);
 }
