@@ -4,7 +4,6 @@
 
 namespace gumcert::audit {
 
-/// What stands before a unit or explanation in brackets: "u(xi) [µm]" and "U95 (k=2)" begin with what they are.
 std::string_view without_brackets(std::string_view text) {
     const std::size_t square = text.find('[');
     if (square != std::string_view::npos && square > 0) {
@@ -36,7 +35,6 @@ bool is_of_number(char c) {
     return (c >= '0' && c <= '9') || c == '.' || c == ',';
 }
 
-/// A symbol behind the word of a head: "X_i", "u(x)", "dT/dx", "a".
 bool is_symbol(std::string_view word) {
     constexpr std::size_t k_longest = 12;
     if (word.empty() || word.size() > k_longest || word.find('%') != std::string_view::npos) {

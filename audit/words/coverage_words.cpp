@@ -94,7 +94,6 @@ CoverageText coverage_in(std::string_view text) {
     return found;
 }
 
-/// Whether what follows a name begins with what is said of coverage: ", k=2", " (95 %", " 95,45 %".
 bool begins_with_coverage(std::string_view text) {
     while (!text.empty() &&
            (text.front() == ' ' || text.front() == ',' || text.front() == ';' || text.front() == '(')) {
@@ -112,7 +111,6 @@ bool begins_with_coverage(std::string_view text) {
     return is_number ? coverage_in(text.substr(0, text.find('%') + 1)).p.has_value() : !number_of_k(text, 0).empty();
 }
 
-/// What is said of coverage as one of U: k above those of u_c, or a probability above 68 %.
 bool is_of_expanded(const CoverageText& coverage) {
     constexpr double k_least_k = 1.6, k_least_p = 0.9;
     const std::optional<LeadingNumber> k =

@@ -58,7 +58,6 @@ FactorInNumbers factor_of_two(std::string_view first, std::string_view second, b
 
 }  // namespace
 
-/// Of "k·u_c", "2 · u(y)" or "u_c·k". Nothing where something is added to it.
 FactorOfU factor_of_u(std::string_view product) {
     product = trimmed(product);
     if (product.find_first_of("+|-/") != std::string_view::npos) {
@@ -91,9 +90,6 @@ FactorOfU factor_of_u(std::string_view product) {
     return {.factor = has_sign && is_u(behind) ? factor : std::string_view()};
 }
 
-/// 2 of "k · u(y) = 2 × 37.7 mg", as EA-4/02 writes U; of "k·u_c = 0.0651·2", too, where u is no k. Nothing where no product of
-/// numbers follows.
-/// \param is_last  k stands behind u: "u_c·k = 37.7 mg · 2"
 FactorInNumbers factor_in_numbers(std::string_view product, bool is_last) {
     const std::size_t equal = product.find('=');
     const std::string_view numbers =
@@ -127,7 +123,6 @@ FactorInNumbers factor_in_numbers(std::string_view product, bool is_last) {
     return {};
 }
 
-/// 59 mg of "k·u(m_X) = 2·29.3 mg ≅ 59 mg"; empty where a product ends the text.
 std::string_view number_at_end(std::string_view product) {
     std::size_t last = std::string_view::npos, behind = 0;
     for (const std::string_view sign : k_signs_of_equality) {

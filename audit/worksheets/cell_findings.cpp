@@ -1,8 +1,8 @@
 #include "audit/worksheets/cell_findings.h"
 
-#include <algorithm>
 #include <utility>
 
+#include "audit/row_edits.h"
 #include "text/small_letters.h"
 
 namespace gumcert::audit {
@@ -19,9 +19,7 @@ std::string text_of(const WorksheetView& view, const SheetFormula& formula) {
 }
 
 bool says(const std::string& text, std::initializer_list<std::string_view> words) {
-    const std::string lower = text::in_small_letters(text);
-    return std::any_of(words.begin(), words.end(),
-                       [&lower](std::string_view word) { return lower.find(word) != std::string::npos; });
+    return mentions(text::in_small_letters(text), words);
 }
 
 std::string place_of(const std::optional<StatedNumber>& number) {

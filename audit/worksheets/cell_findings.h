@@ -18,7 +18,7 @@ namespace gumcert::audit {
 [[nodiscard]] std::string text_of(const WorksheetView& view, const SheetFormula& formula);
 /// The place of the cell that holds a number; "" where there is none.
 [[nodiscard]] std::string place_of(const std::optional<StatedNumber>& number);
-/// Whether a text has one of some words, given in small letters.
+/// mentions() of a text in any letters.
 [[nodiscard]] bool says(const std::string& text, std::initializer_list<std::string_view> words);
 /// Leaves unchecked what was left out of formulas that read too much.
 void tell_limit(const ReadCells& cells, FindingCollector& findings);

@@ -219,10 +219,8 @@ bool is_call(const workbook::FormulaNode& node, std::initializer_list<std::strin
 }
 
 bool calls_one_of(const workbook::Formula& formula, std::initializer_list<std::string_view> names) {
-    return std::any_of(formula.nodes.begin(), formula.nodes.end(), [&names](const workbook::FormulaNode& node) {
-        return node.kind == workbook::FormulaNodeKind::call &&
-               std::find(names.begin(), names.end(), node.text) != names.end();
-    });
+    return std::any_of(formula.nodes.begin(), formula.nodes.end(),
+                       [&names](const workbook::FormulaNode& node) { return is_call(node, names); });
 }
 
 std::optional<WorksheetView> worksheet_of(const AuditSubject& subject) {
