@@ -24,6 +24,13 @@ struct ResultDistribution {
     std::function<double(double)> function;  ///< P(Y ≤ x)
     std::function<double(double)> below;     ///< P(Y < x), where single values have a probability; empty: P(Y ≤ x)
     double least_probability = 0.0;          ///< what is smaller is not known
+    std::uint64_t draws = 0;                 ///< of correlated inputs, behind the function; 0: none
+};
+
+/// What the equations give at the estimates, where a result is stated as the mean of trials that is another value.
+struct ModelValue {
+    double value = 0.0;        ///< in the unit of the result
+    bool is_in_doubt = false;  ///< evidence is against the mean of the trials (gum::is_mean_in_doubt())
 };
 
 /// What the evaluation knows beside its record.
@@ -38,9 +45,7 @@ struct CapabilityInputs {
     /// Trials of results whose U comes from Monte Carlo, by Result::name. Counted where a decision needs them, one
     /// result after the other: they take memory.
     std::map<std::string, gum::TrialsOfOutput> trials = {};
-    /// What the equations give at the estimates, in the unit of the result, by Result::name: where evidence is against the mean
-    /// of the trials that is stated (gum::is_mean_in_doubt()).
-    std::map<std::string, double> at_estimates = {};
+    std::map<std::string, ModelValue> at_estimates = {};        ///< by Result::name
     gum::RoundingMode rounding = gum::RoundingMode::half_even;  ///< of U, as the job asks for it
 };
 

@@ -197,13 +197,12 @@ void set_degrees_of_freedom(const Budget& budget, const std::vector<std::size_t>
                  "taken as one ensemble of observations, which has that number as a whole",
                  "State `simultaneous` observations where there are some.");
     } else if (least < most) {
-        add_note(
-            result, "GC-BUDGET-0012", group.name,
-            "correlated, with different degrees of freedom (" + all + "); " + shown(least) +
-                " are taken for all of them together",
-            "the Welch-Satterthwaite formula holds for independent contributions (JCGM 100:2008, G.4.1); the least "
-            "number claims no more than is known",
-            "State `simultaneous` observations where there are some.");
+        add_note(result, "GC-BUDGET-0012", group.name,
+                 "correlated, with different degrees of freedom (" + all + "); " + shown(least) +
+                     " are taken for all of them together",
+                 "the Welch-Satterthwaite formula holds for independent contributions (JCGM 100:2008, G.4.1); k and "
+                 "probabilities are those of the joint distribution that Monte Carlo draws, not of this number",
+                 "State `simultaneous` observations where there are some.");
     }
 }
 
@@ -329,10 +328,9 @@ void set_dependence(const Budget& budget, const std::vector<Member>& members, co
     } else {
         group.dependence = Dependence::gaussian_copula;
         set_copula(members, group, result);
-        // k by convolution takes the copula too, but for normal and t-distributions.
+        // k by convolution takes the copula too, but for normal distributions.
         const bool for_k = !std::all_of(group.marginals.begin(), group.marginals.end(), [](const Distribution& m) {
-            return m.kind == DistributionKind::normal || m.kind == DistributionKind::student_t ||
-                   m.kind == DistributionKind::constant;
+            return m.kind == DistributionKind::normal || m.kind == DistributionKind::constant;
         });
         if (budget.monte_carlo || for_k) {
             add_note(result, "GC-BUDGET-0011", group.name,

@@ -8,7 +8,10 @@
 #include <complex>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <iterator>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <numeric>
 #include <optional>
@@ -50,11 +53,18 @@ struct Centred {
     Distribution distribution;
     bool symmetric = true;
     bool mirrored = false;
+    std::uint64_t draws = 0;  // as of its term
 };
 
 /// A standard deviation, or for a t-distribution without one the scale: the width of the bulk.
 double width(const Distribution& distribution) {
     const double deviation = standard_deviation(distribution);
+    if (distribution.kind == DistributionKind::empirical) {
+        // Of draws of few degrees of freedom the outermost rule the standard deviation: cells would be as wide as the bulk.
+        constexpr double k_outside = 0.005;
+        const double bulk = 0.5 * (upper_quantile(distribution, k_outside) - quantile(distribution, k_outside));
+        return bulk > 0.0 && deviation > 2.0 * bulk ? bulk : deviation;
+    }
     return std::isfinite(deviation) ? deviation : distribution.scale;
 }
 
@@ -134,7 +144,7 @@ std::vector<Centred> centred_distributions(std::span<const ConvolutionTerm> term
             distribution.location = -expectation(distribution);
         }
         // A negative sensitivity mirrors a distribution. Of a symmetric one nothing is seen.
-        all.push_back({std::move(distribution), symmetric, !symmetric && term.sensitivity < 0.0});
+        all.push_back({std::move(distribution), symmetric, !symmetric && term.sensitivity < 0.0, term.draws});
     }
     if (normal_variance > 0.0) {
         all.push_back({Distribution::normal(0.0, std::sqrt(normal_variance))});
@@ -164,9 +174,15 @@ struct CellSum {
     bool cut = false;  // tails go on beyond the grid: their probability is at its ends
 };
 
+/// The cells of a grid.
+struct Grid {
+    double h = 0.0;
+    bool cut = false;  // as in CellSum
+};
+
 /// \param widest_grid  in standard deviations of the sum: cells grow with it
 /// \param tail         probability of a term that may be left outside of the widest grid of all
-CellSum convolve(std::span<const Centred> distributions, double widest_grid, double tail = k_tail_beyond_grid) {
+Grid grid_for(std::span<const Centred> distributions, double widest_grid, double tail) {
     double variance = 0.0;
     double reach = 0.0;  // nothing lies further out, but for the tails of the terms without limits
     for (const Centred& centred : distributions) {
@@ -175,18 +191,24 @@ CellSum convolve(std::span<const Centred> distributions, double widest_grid, dou
     }
     const double widest = widest_grid * std::sqrt(variance);
     // Without a limit of the grid a t-distribution of few degrees of freedom would make its cells wider than the bulk.
-    const bool cut = reach > widest;
-    reach = std::min(reach, widest);
-    const double h = reach / static_cast<double>(k_last_cell);
+    return {.h = std::min(reach, widest) / static_cast<double>(k_last_cell), .cut = reach > widest};
+}
 
+using Spectrum = std::vector<std::complex<double>>;
+
+Eigen::FFT<double>& cell_transform() {
     // It keeps its table of sines, which takes as long as a transform.
     thread_local Eigen::FFT<double> transform;
-    // The spectrum of a sum of independent quantities is the product of their spectra.
-    std::vector<std::complex<double>> product;
-    std::vector<std::complex<double>> spectrum;
+    return transform;
+}
+
+/// The spectrum of a sum of independent quantities is the product of their spectra.
+/// \param product  of the terms before; empty: there are none
+void multiply_spectra(std::span<const Centred> distributions, double h, Spectrum& product) {
+    Spectrum spectrum;
     for (const Centred& centred : distributions) {
-        transform.fwd(spectrum,
-                      centred.symmetric ? cell_probabilities(centred.distribution, h) : asymmetric_cells(centred, h));
+        cell_transform().fwd(
+            spectrum, centred.symmetric ? cell_probabilities(centred.distribution, h) : asymmetric_cells(centred, h));
         if (product.empty()) {
             product.swap(spectrum);
         } else {
@@ -195,9 +217,20 @@ CellSum convolve(std::span<const Centred> distributions, double widest_grid, dou
             }
         }
     }
+}
+
+CellSum cells_of(const Grid& grid, const Spectrum& product) {
     std::vector<double> sum;
-    transform.inv(sum, product);
-    return {h, std::move(sum), cut};
+    cell_transform().inv(sum, product);
+    return {grid.h, std::move(sum), grid.cut};
+}
+
+/// \param widest_grid, tail  as in grid_for()
+CellSum convolve(std::span<const Centred> distributions, double widest_grid, double tail = k_tail_beyond_grid) {
+    const Grid grid = grid_for(distributions, widest_grid, tail);
+    Spectrum product;
+    multiply_spectra(distributions, grid.h, product);
+    return cells_of(grid, product);
 }
 
 }  // namespace
@@ -936,6 +969,27 @@ ConvolutionInterval interval_with_equal_tails(const CellSum& convolved, double c
     return {-end(-1), end(1)};
 }
 
+/// What is cut off must stay small beside the tail that is asked for.
+double tail_beside(double coverage_probability) {
+    return std::min(k_tail_beyond_grid, 1e-3 * (1.0 - coverage_probability));
+}
+
+/// Where an end lies far out in a tail, a wider grid has it well inside: probability that is put at the ends of a grid
+/// must lie far from where it counts.
+/// \param interval_on  of a widest grid: the interval, and the grid that it is on
+template <class IntervalOn>
+ConvolutionInterval on_growing_grids(IntervalOn&& interval_on) {
+    constexpr double k_trusted = 0.125;
+    constexpr double k_wider = 8.0;
+    for (double widest_grid = k_widest_grid;; widest_grid *= k_wider) {
+        const auto [interval, grid] = interval_on(widest_grid);
+        const double reach = 0.5 * static_cast<double>(k_convolution_cells) * grid.h;
+        if (!grid.cut || std::max(-interval.low, interval.high) <= k_trusted * reach) {
+            return interval;
+        }
+    }
+}
+
 }  // namespace
 
 ConvolutionInterval convolution_interval(std::span<const ConvolutionTerm> terms, double coverage_probability) {
@@ -958,21 +1012,13 @@ ConvolutionInterval convolution_interval(std::span<const ConvolutionTerm> terms,
             return {-*U, *U};
         }
     }
-    // Where an end lies far out in a tail, a wider grid has it well inside: probability that is put at the ends of a
-    // grid must lie far from where it counts.
-    constexpr double k_trusted = 0.125;
-    constexpr double k_wider = 8.0;
-    // What is cut off must stay small beside the tail that is asked for.
-    const double tail = std::min(k_tail_beyond_grid, 1e-3 * (1.0 - coverage_probability));
-    for (double widest_grid = k_widest_grid;; widest_grid *= k_wider) {
+    const double tail = tail_beside(coverage_probability);
+    return on_growing_grids([&](double widest_grid) {
         const CellSum sum = convolve(distributions, widest_grid, tail);
-        const ConvolutionInterval interval = symmetric ? symmetric_interval(sum, coverage_probability)
-                                                       : interval_with_equal_tails(sum, coverage_probability);
-        const double reach = 0.5 * static_cast<double>(k_convolution_cells) * sum.h;
-        if (!sum.cut || std::max(-interval.low, interval.high) <= k_trusted * reach) {
-            return interval;
-        }
-    }
+        return std::pair(symmetric ? symmetric_interval(sum, coverage_probability)
+                                   : interval_with_equal_tails(sum, coverage_probability),
+                         Grid{sum.h, sum.cut});
+    });
 }
 
 double convolution_half_width(std::span<const ConvolutionTerm> terms, double coverage_probability) {
@@ -1152,6 +1198,7 @@ struct ConvolutionDistribution::Table {
     std::optional<FourierSeries> series;
     std::optional<GridDistribution> grid;
     double least_probability = 0.0;
+    std::uint64_t draws = 0;
 
     static constexpr double k_known = 100.0;  // of an error, for two digits
 
@@ -1200,7 +1247,9 @@ ConvolutionDistribution::ConvolutionDistribution(std::span<const ConvolutionTerm
         // The tail of a sum is not that of its samples where they are next to nothing of it.
         const double part = width(term.distribution) * width(term.distribution);
         if (term.distribution.kind == DistributionKind::empirical && part >= k_negligible_samples * variance) {
-            table.know_from(1.0 / static_cast<double>(term.distribution.samples->size()));
+            table.know_from(1.0 / static_cast<double>(term.draws > 0 ? term.draws : term.distribution.samples->size()));
+            table.draws = term.draws > 0 && table.draws > 0 ? std::min(term.draws, table.draws)
+                                                            : std::max(term.draws, table.draws);
         }
     }
     // A single term is asked itself.
@@ -1221,6 +1270,10 @@ bool ConvolutionDistribution::has_single_values() const {
 
 double ConvolutionDistribution::least_probability() const {
     return table_->least_probability;
+}
+
+std::uint64_t ConvolutionDistribution::draws() const {
+    return table_->draws;
 }
 
 double ConvolutionDistribution::below(double x) const {
@@ -1250,15 +1303,14 @@ constexpr double k_most_times = 32.0;       // of them, where the tails are smal
 constexpr double k_certainly_less = 0.005;  // of k: half of what would be noticed
 constexpr double k_negligible_share = 1e-3;
 
-/// Whether a linear combination of a group is taken as t with the degrees of freedom of the group: it is drawn as
-/// normal or t, or all of its quantities are one of them (the least ν of which is that of the group).
+/// Whether every linear combination of a group is normal, or t with the degrees of freedom of the group. A copula of
+/// t-distributions is not of this kind: where a wide tail and a narrow one cancel, the variance goes and the tail stays.
 bool is_elliptical(const InputGroup& group) {
-    return group.dependence == Dependence::normal || group.dependence == Dependence::student_t ||
-           (group.dependence == Dependence::gaussian_copula &&
-            std::all_of(group.marginals.begin(), group.marginals.end(), [](const Distribution& d) {
-                return d.kind == DistributionKind::normal || d.kind == DistributionKind::student_t ||
-                       d.kind == DistributionKind::constant;
-            }));
+    return group.dependence == Dependence::normal || group.dependence == Dependence::student_t;
+}
+
+bool is_student(const Distribution& d) {
+    return d.kind == DistributionKind::student_t;
 }
 
 /// The quantities of a group that have an effect, as a group of their own: others change nothing.
@@ -1288,14 +1340,46 @@ EffectiveGroup taken_from(const InputGroup& group, const Eigen::RowVectorXd& c,
     return taken;
 }
 
-EffectiveGroup with_effect(const InputGroup& group, const Eigen::RowVectorXd& c) {
+std::vector<Eigen::Index> quantities_with_effect(const InputGroup& group, const Eigen::RowVectorXd& c) {
     std::vector<Eigen::Index> quantities;
     for (Eigen::Index i = 0; i < group.size(); ++i) {
-        if (c(i) != 0.0 && group.covariance(i, i) > 0.0) {
+        if (c(i) != 0.0 && (group.is_diagonal() ? group.covariance(i, 0) : group.covariance(i, i)) > 0.0) {
             quantities.push_back(i);
         }
     }
-    return taken_from(group, c, quantities);
+    return quantities;
+}
+
+/// Correlation of the normal deviates behind a copula.
+Eigen::MatrixXd deviate_correlation(const InputGroup& group) {
+    return group.normal_correlation.size() > 0 ? group.normal_correlation : correlation_matrix(group.covariance);
+}
+
+/// The quantities of a group with an effect, in parts that are independent of each other. Deviates of a copula that no
+/// chain of coefficients joins are independent, and so are the quantities; rows and equal probabilities join all.
+std::vector<std::vector<Eigen::Index>> independent_parts(const InputGroup& group, const Eigen::RowVectorXd& c) {
+    std::vector<Eigen::Index> left = quantities_with_effect(group, c);
+    std::vector<std::vector<Eigen::Index>> parts;
+    if (group.dependence != Dependence::gaussian_copula && !group.is_diagonal()) {
+        if (!left.empty()) {
+            parts.push_back(std::move(left));
+        }
+        return parts;
+    }
+    const Eigen::MatrixXd N = group.is_diagonal() ? Eigen::MatrixXd() : deviate_correlation(group);
+    while (!left.empty()) {
+        std::vector<Eigen::Index> part{left.front()};
+        left.erase(left.begin());
+        for (std::size_t of = 0; of < part.size() && N.size() > 0; ++of) {
+            const auto others =
+                std::stable_partition(left.begin(), left.end(), [&](Eigen::Index i) { return N(part[of], i) == 0.0; });
+            part.insert(part.end(), others, left.end());
+            left.erase(others, left.end());
+        }
+        std::sort(part.begin(), part.end());
+        parts.push_back(std::move(part));
+    }
+    return parts;
 }
 
 /// An order of the quantities of a group that follows from what they are: their distributions, contributions with their
@@ -1370,38 +1454,65 @@ Eigen::Index draws_of_group(double coverage_probability) {
     return static_cast<Eigen::Index>(k_draws_of_group * std::min(std::floor(more), k_most_times));
 }
 
-constexpr Eigen::Index k_convolution_batches = 16;
+constexpr std::size_t k_convolution_batches = 16;
 
-/// Contribution of a group that is drawn by a copula or by rows, as the distribution of many draws.
-/// \param batch  one of k_convolution_batches equal parts of the draws; none: all of them
-Distribution drawn_contribution(const InputGroup& group, const Eigen::RowVectorXd& c, double coverage_probability,
-                                std::optional<Eigen::Index> batch) {
-    auto values = std::make_shared<std::vector<double>>();
+/// Whether each draw of a group has a mirror image that is as probable, which counts with it: with t-distributions of few
+/// degrees of freedom the mean of the draws, and the difference of their tails, is ruled by the outermost of them.
+bool has_mirror_image(const InputGroup& group) {
+    return group.dependence == Dependence::gaussian_copula &&
+           std::any_of(group.marginals.begin(), group.marginals.end(), is_student) &&
+           std::all_of(group.marginals.begin(), group.marginals.end(), is_symmetric);
+}
+
+/// Contribution of a group that is drawn by a copula or by rows.
+struct DrawnContribution {
+    std::vector<double> sums;  // Σ c (x − value), in the order of the draws
+    bool is_mirrored = false;
+
+    /// \return the distribution of the draws from `begin` up to `end`
+    [[nodiscard]] Distribution distribution(std::size_t begin, std::size_t end) const {
+        auto values = std::make_shared<std::vector<double>>(sums.begin() + static_cast<std::ptrdiff_t>(begin),
+                                                            sums.begin() + static_cast<std::ptrdiff_t>(end));
+        if (is_mirrored) {
+            values->reserve(2 * values->size());
+            std::transform(values->begin(), values->begin() + static_cast<std::ptrdiff_t>(end - begin),
+                           std::back_inserter(*values), std::negate<>());
+        }
+        boost::sort::pdqsort(values->begin(), values->end());
+        return {.kind = DistributionKind::empirical, .location = 0.0, .scale = 1.0, .samples = std::move(values)};
+    }
+    [[nodiscard]] Distribution distribution() const { return distribution(0, sums.size()); }
+    /// One of k_convolution_batches equal parts of the draws.
+    [[nodiscard]] Distribution batch(std::size_t i) const {
+        const std::size_t size = sums.size() / k_convolution_batches;
+        return distribution(i * size, (i + 1) * size);
+    }
+};
+
+DrawnContribution drawn_contribution(const InputGroup& group, const Eigen::RowVectorXd& c,
+                                     double coverage_probability) {
+    DrawnContribution drawn{.sums = {}, .is_mirrored = has_mirror_image(group)};
     const auto add = [&](const Eigen::MatrixXd& x, const EffectiveGroup& of) {
         const Eigen::VectorXd sums = (x.rowwise() - of.group.value.transpose()) * of.c.transpose();
-        values->insert(values->end(), sums.data(), sums.data() + sums.size());
+        drawn.sums.insert(drawn.sums.end(), sums.data(), sums.data() + sums.size());
     };
     if (group.dependence == Dependence::joint_samples) {
         add(*group.samples, {group, c});
-    } else {
-        // Draws belong to places in a group. In the order of the job, k would change when inputs change their places or
-        // names.
-        const EffectiveGroup sorted = taken_from(group, c, canonical_order(group, c));
-        // One seed for ever: k is part of a result and must not change from run to run.
-        constexpr std::uint64_t k_seed = 1;
-        const InputDraws draws({sorted.group}, k_seed, {});
-        const Eigen::Index count = draws_of_group(coverage_probability);
-        // The batches of the error are parts of the draws that give k, not further draws.
-        const Eigen::Index begin = batch ? *batch * (count / k_convolution_batches) : 0;
-        const Eigen::Index end = batch ? begin + count / k_convolution_batches : count;
-        Eigen::MatrixXd x(std::min(k_draws_of_group, count / k_convolution_batches), group.size());
-        for (Eigen::Index first = begin; first < end; first += x.rows()) {
-            draws.draw(static_cast<std::uint64_t>(first), x);
-            add(x, sorted);
-        }
+        return drawn;
     }
-    boost::sort::pdqsort(values->begin(), values->end());
-    return {.kind = DistributionKind::empirical, .location = 0.0, .scale = 1.0, .samples = std::move(values)};
+    // Draws belong to places in a group. In the order of the job, k would change when inputs change their places or
+    // names.
+    const EffectiveGroup sorted = taken_from(group, c, canonical_order(group, c));
+    // One seed for ever: k is part of a result and must not change from run to run.
+    constexpr std::uint64_t k_seed = 1;
+    const InputDraws draws({sorted.group}, k_seed, {});
+    const Eigen::Index count = draws_of_group(coverage_probability);
+    Eigen::MatrixXd x(k_draws_of_group / static_cast<Eigen::Index>(k_convolution_batches), group.size());
+    for (Eigen::Index first = 0; first < count; first += x.rows()) {
+        draws.draw(static_cast<std::uint64_t>(first), x);
+        add(x, sorted);
+    }
+    return drawn;
 }
 
 /// What an output is made of, for a bound: shares of the variance.
@@ -1432,6 +1543,13 @@ public:
         }
     }
     void add_other(double w) { other_ += w; }
+    /// \param least_nu  of the t-distributions in a copula; infinite: there are none
+    void add_drawn(double w, double least_nu) {
+        add_other(w);
+        if (std::isfinite(least_nu)) {
+            heavy_ += least_nu < 2.0 && w > 0.0 ? 1.0 : w;
+        }
+    }
 
     [[nodiscard]] bool change_little(double p) const {
         const double z = coverage_factor(p, k_infinity);
@@ -1451,21 +1569,54 @@ private:
     double other_ = 0.0;     ///< Σ w of what is not symmetric, or drawn together
 };
 
+/// The t-distributions in a copula that have an effect.
+struct StudentPart {
+    double least_nu = k_infinity;  ///< infinite: there are none
+    /// Variance of the whole group if all of it added up; 0 without t-distributions. u of the group itself tells nothing
+    /// of them: the variances of t-distributions are larger than their u², by another factor each, and do not cancel as
+    /// those do.
+    double widest = 0.0;
+};
+
+StudentPart students_of(const InputGroup& group, const Eigen::RowVectorXd& c) {
+    StudentPart part;
+    double sum = 0.0;
+    for (const Eigen::Index i : quantities_with_effect(group, c)) {
+        sum += std::abs(c(i)) * std::sqrt(group.covariance(i, i));
+        const bool is_t =
+            group.dependence == Dependence::gaussian_copula && is_student(group.marginals[static_cast<std::size_t>(i)]);
+        if (is_t) {
+            part.least_nu = std::min(part.least_nu, group.marginals[static_cast<std::size_t>(i)].shape);
+        }
+    }
+    part.widest = std::isfinite(part.least_nu) ? sum * sum : 0.0;
+    return part;
+}
+
+bool has_students(const InputGroup& group, const Eigen::RowVectorXd& c) {
+    return students_of(group, c).widest > 0.0;
+}
+
 Shapes shapes_of(const std::vector<InputGroup>& groups, const Propagation& propagation, Eigen::Index output) {
     Shapes shapes;
     const double total = propagation.standard_uncertainty(output) * propagation.standard_uncertainty(output);
+    Eigen::Index first = 0;
     for (std::size_t g = 0; g < groups.size(); ++g) {
-        const double w = propagation.budget[g].variance(output) / total;
-        if (w == 0.0) {
-            continue;
-        }
         const InputGroup& group = groups[g];
+        const double w = propagation.budget[g].variance(output) / total;
+        const Eigen::RowVectorXd c = propagation.jacobian.row(output).segment(first, group.size());
+        first += group.size();
         if (group.size() == 1 && group.marginals.size() == 1) {
-            shapes.add(w, group.marginals.front(), group.degrees_of_freedom);
+            if (w > 0.0) {
+                shapes.add(w, group.marginals.front(), group.degrees_of_freedom);
+            }
         } else if (is_elliptical(group)) {
-            shapes.add_student(w, group.degrees_of_freedom);
+            if (w > 0.0) {
+                shapes.add_student(w, group.degrees_of_freedom);
+            }
         } else {
-            shapes.add_other(w);
+            const StudentPart students = students_of(group, c);
+            shapes.add_drawn(students.widest > 0.0 ? students.widest / total : w, students.least_nu);
         }
     }
     return shapes;
@@ -1498,63 +1649,125 @@ bool convolution_changes_little(std::span<const ConvolutionTerm> terms, std::spa
 
 namespace {
 
-/// The terms, and how many draws a drawn one has.
+/// The terms, and the draws of those that are drawn by a copula.
 struct DrawnTerms {
     std::vector<ConvolutionTerm> terms;
-    std::uint64_t draws = 0;
+    std::vector<std::pair<std::size_t, DrawnContribution>> drawn;  // by the place of the term
 };
 
-/// \param batch  as drawn_contribution()
-std::optional<DrawnTerms> terms_of(const MeasurementModel& model, const Propagation& propagation, Eigen::Index output,
-                                   std::optional<Eigen::Index> batch) {
+/// Adds the contribution of a group that is neither normal nor t as a whole, part by part.
+void add_parts(const InputGroup& group, const Eigen::RowVectorXd& c, double coverage_probability, DrawnTerms& result) {
+    constexpr double k_as_normal = 1e6;  // degrees of freedom of a t-distribution that nothing tells from a normal one
+    for (const std::vector<Eigen::Index>& part : independent_parts(group, c)) {
+        if (part.size() == 1 && !group.marginals.empty()) {  // it has its own distribution, and no draws blur it
+            result.terms.push_back({c(part.front()), group.marginals[static_cast<std::size_t>(part.front())]});
+            continue;
+        }
+        const EffectiveGroup of = taken_from(group, c, part);
+        const std::vector<Distribution>& marginals = of.group.marginals;
+        if (group.dependence == Dependence::gaussian_copula &&
+            std::all_of(marginals.begin(), marginals.end(), [](const Distribution& d) {
+                return d.kind == DistributionKind::normal || (is_student(d) && d.shape >= k_as_normal);
+            })) {
+            const Eigen::RowVectorXd b = of.c.array() * of.group.covariance.diagonal().cwiseSqrt().transpose().array();
+            const double variance = b.dot(b * deviate_correlation(of.group));
+            result.terms.push_back({1.0, Distribution::normal(0.0, std::sqrt(std::max(0.0, variance)))});
+            continue;
+        }
+        DrawnContribution drawn = drawn_contribution(of.group, of.c, coverage_probability);
+        result.terms.push_back({1.0, drawn.distribution()});
+        if (group.dependence != Dependence::joint_samples) {
+            result.terms.back().draws = drawn.sums.size();
+            result.drawn.emplace_back(result.terms.size() - 1, std::move(drawn));
+        }
+    }
+}
+
+std::optional<DrawnTerms> terms_of(const MeasurementModel& model, const Propagation& propagation, Eigen::Index output) {
     const std::vector<InputGroup>& groups = model.inputs();
     DrawnTerms result;
-    std::vector<ConvolutionTerm>& terms = result.terms;
     Eigen::Index first = 0;
     for (std::size_t g = 0; g < groups.size(); ++g) {
         const InputGroup& group = groups[g];
         const double variance = propagation.budget[g].variance(output);
         const Eigen::RowVectorXd c = propagation.jacobian.row(output).segment(first, group.size());
         first += group.size();
-        if (variance == 0.0) {
+        // Variances that cancel leave nothing, but for t-distributions in a copula.
+        if (variance == 0.0 && !has_students(group, c)) {
             continue;
         }
         if (group.size() == 1 && group.marginals.size() == 1) {
-            terms.push_back({c(0), group.marginals.front()});
-        } else if (is_elliptical(group) || group.is_diagonal()) {
-            // A linear combination of normal or t quantities of one ν is known without drawing: the same with c V cᵀ as
-            // its variance.
+            result.terms.push_back({c(0), group.marginals.front()});
+        } else if (group.is_diagonal() ? group.marginals.empty() : is_elliptical(group)) {
+            // A linear combination of normal quantities, or of t-distributed ones with one χ², is known without drawing:
+            // the same with c V cᵀ as its variance.
             if (std::isnan(group.degrees_of_freedom)) {
                 return std::nullopt;
             }
-            terms.push_back({1.0, Distribution::student_t(0.0, std::sqrt(variance), group.degrees_of_freedom)});
+            result.terms.push_back({1.0, Distribution::student_t(0.0, std::sqrt(variance), group.degrees_of_freedom)});
         } else {
-            // What is left may be a single quantity: then it has its own distribution, and no draws blur it.
-            const EffectiveGroup of = with_effect(group, c);
-            const bool single = of.group.size() == 1 && of.group.marginals.size() == 1;
-            if (single) {
-                terms.push_back({of.c(0), of.group.marginals.front()});
-                continue;
-            }
-            terms.push_back({1.0, drawn_contribution(of.group, of.c, propagation.coverage_probability, batch)});
-            if (of.group.dependence != Dependence::joint_samples) {
-                result.draws = terms.back().distribution.samples->size();
-            }
+            add_parts(group, c, propagation.coverage_probability, result);
         }
     }
-    if (terms.empty()) {
+    if (result.terms.empty()) {
         return std::nullopt;
     }
     return result;
 }
 
+/// U from parts of the draws. The other terms have the same cells for each of them, which take most of the time.
+class PartsOfDraws {
+public:
+    PartsOfDraws(const DrawnTerms& drawn, double coverage_probability) : drawn_(drawn), p_(coverage_probability) {
+        std::vector<ConvolutionTerm> others;
+        for (std::size_t i = 0; i < drawn.terms.size(); ++i) {
+            if (std::none_of(drawn.drawn.begin(), drawn.drawn.end(), [&](const auto& d) { return d.first == i; })) {
+                others.push_back(drawn.terms[i]);
+            }
+        }
+        if (!others.empty()) {
+            all_ = centred_distributions(drawn.terms);
+            others_ = centred_distributions(others);
+        }
+    }
+
+    [[nodiscard]] double half_width(std::size_t batch) {
+        std::vector<ConvolutionTerm> parts;
+        for (const auto& [place, contribution] : drawn_.drawn) {
+            parts.push_back({1.0, contribution.batch(batch)});
+        }
+        if (others_.empty()) {
+            return convolution_half_width(parts, p_);
+        }
+        const std::vector<Centred> centred = centred_distributions(parts);
+        const ConvolutionInterval interval = on_growing_grids([&](double widest_grid) {
+            auto& [grid, product] = known_[widest_grid];
+            if (product.empty()) {
+                grid = grid_for(all_, widest_grid, tail_beside(p_));
+                multiply_spectra(others_, grid.h, product);
+            }
+            Spectrum all = product;
+            multiply_spectra(centred, grid.h, all);
+            return std::pair(interval_with_equal_tails(cells_of(grid, all), p_), grid);
+        });
+        return 0.5 * (interval.high - interval.low);
+    }
+
+private:
+    const DrawnTerms& drawn_;
+    double p_;
+    std::vector<Centred> all_, others_;
+    std::map<double, std::pair<Grid, Spectrum>> known_;  // of the other terms, by the widest grid
+};
+
 /// Standard uncertainty of U from the finite number of draws.
-double error_from_draws(const MeasurementModel& model, const Propagation& propagation, Eigen::Index output) {
+double error_from_draws(const DrawnTerms& drawn, double coverage_probability) {
+    PartsOfDraws parts(drawn, coverage_probability);
     double sum = 0.0;
     double squares = 0.0;
-    for (Eigen::Index batch = 0; batch < k_convolution_batches; ++batch) {
-        const double U = convolution_half_width(terms_of(model, propagation, output, batch)->terms,
-                                                propagation.coverage_probability);
+    for (std::size_t batch = 0; batch < k_convolution_batches; ++batch) {
+        // The batches are parts of the draws that give k, not further draws.
+        const double U = parts.half_width(batch);
         sum += U;
         squares += U * U;
     }
@@ -1568,27 +1781,28 @@ double error_from_draws(const MeasurementModel& model, const Propagation& propag
 
 std::optional<std::vector<ConvolutionTerm>> convolution_terms(const MeasurementModel& model,
                                                               const Propagation& propagation, Eigen::Index output) {
-    auto result = terms_of(model, propagation, output, std::nullopt);
+    auto result = terms_of(model, propagation, output);
     return result ? std::optional(std::move(result->terms)) : std::nullopt;
 }
 
 bool is_normal_or_student(const MeasurementModel& model, const Propagation& propagation, Eigen::Index output) {
     bool has_normal = false;
     int students = 0;
+    Eigen::Index first = 0;
     for (std::size_t g = 0; g < model.inputs().size(); ++g) {
         const InputGroup& group = model.inputs()[g];
-        if (propagation.budget[g].variance(output) == 0.0) {
+        const Eigen::RowVectorXd c = propagation.jacobian.row(output).segment(first, group.size());
+        first += group.size();
+        if (propagation.budget[g].variance(output) == 0.0 && !has_students(group, c)) {
             continue;
         }
         const bool is_single = group.size() == 1 && group.marginals.size() == 1;
-        const bool is_student = is_single ? group.marginals.front().kind == DistributionKind::student_t
-                                          : std::isfinite(group.degrees_of_freedom);
-        if (is_single ? !is_student && group.marginals.front().kind != DistributionKind::normal
-                      : !is_elliptical(group)) {
+        const bool is_t = is_single ? is_student(group.marginals.front()) : std::isfinite(group.degrees_of_freedom);
+        if (is_single ? !is_t && group.marginals.front().kind != DistributionKind::normal : !is_elliptical(group)) {
             return false;
         }
-        has_normal = has_normal || !is_student;
-        students += is_student ? 1 : 0;
+        has_normal = has_normal || !is_t;
+        students += is_t ? 1 : 0;
     }
     return students + (has_normal ? 1 : 0) <= 1;
 }
@@ -1607,7 +1821,7 @@ std::optional<ConvolvedOutput> expand_by_convolution(const MeasurementModel& mod
     }
     // No criterion of domination: k of a rectangular contribution jumped from 1.75 to 2.00 where a ratio passed 0.30,
     // and three equal ones at 99 % have 2.379, not 2.576 (ADR 0025).
-    const auto drawn = terms_of(model, propagation, output, std::nullopt);
+    const auto drawn = terms_of(model, propagation, output);
     if (!drawn) {
         return std::nullopt;
     }
@@ -1616,9 +1830,9 @@ std::optional<ConvolvedOutput> expand_by_convolution(const MeasurementModel& mod
     result.expanded_uncertainty = 0.5 * (interval.high - interval.low);
     result.coverage_factor = result.expanded_uncertainty / u;
     result.asymmetry = 0.5 * (interval.high + interval.low) / result.expanded_uncertainty;
-    result.draws = drawn->draws;
-    if (result.draws > 0) {
-        result.numerical_error = error_from_draws(model, propagation, output) / u;
+    if (!drawn->drawn.empty()) {
+        result.draws = drawn->drawn.front().second.sums.size();
+        result.numerical_error = error_from_draws(*drawn, propagation.coverage_probability) / u;
     }
     return result;
 }

@@ -18,6 +18,7 @@ namespace gumcert::gum {
 struct ConvolutionTerm {
     double sensitivity = 1.0;  ///< c, [unit of y / unit of x]
     Distribution distribution;
+    std::uint64_t draws = 0;  ///< whose values stand for the distribution; 0: it is known as it is
 };
 
 /// Ends of an interval about 0, [unit of y].
@@ -70,6 +71,10 @@ public:
     /// 0.1 % of the variance or more. 0 of another single term.
     [[nodiscard]] double least_probability() const;
 
+    /// Draws that stand for a part of the sum with 0.1 % of the variance or more: a probability p scatters by no more than
+    /// √(p (1 − p)/draws) about that of more draws. 0: nothing is drawn.
+    [[nodiscard]] std::uint64_t draws() const;
+
 private:
     struct Table;
     std::shared_ptr<const Table> table_;
@@ -102,8 +107,9 @@ struct ConvolvedOutput {
 
 /// The contributions of all inputs to an output: the distribution of Y − y is their convolution.
 ///
-/// Single quantities enter by their distributions, groups that are normal or t by the t-distribution of their standard
-/// uncertainty and degrees of freedom, groups that are drawn by a copula or by rows through 65 536 draws or their rows.
+/// Single quantities enter by their distributions, groups that are normal or t as a whole by the t-distribution of their
+/// standard uncertainty and degrees of freedom. Of a copula and of rows, quantities without effect are left out; what is
+/// independent of the others enters by itself, normal quantities as a normal one, others through 65 536 draws or their rows.
 /// \return nothing when no contribution is left, or the degrees of freedom of a group are not known
 [[nodiscard]] std::optional<std::vector<ConvolutionTerm>> convolution_terms(const MeasurementModel& model,
                                                                             const Propagation& propagation,

@@ -94,7 +94,8 @@ certificate::ResultDistribution convolved(const gum::MeasurementModel& model, co
     if (!distribution.has_single_values()) {
         return {.function = [=](double x) { return distribution(unit.to_si(x) - centre); },
                 .below = {},
-                .least_probability = distribution.least_probability()};
+                .least_probability = distribution.least_probability(),
+                .draws = distribution.draws()};
     }
     // A limit that is a possible value differs from it by roundings alone. Of other distributions the same roundings would
     // move a limit, where u is small against the value.
@@ -112,7 +113,8 @@ certificate::ResultDistribution convolved(const gum::MeasurementModel& model, co
                     const double at = unit.to_si(x);
                     return distribution.below(at - centre - rounding(at));
                 },
-            .least_probability = distribution.least_probability()};
+            .least_probability = distribution.least_probability(),
+            .draws = distribution.draws()};
 }
 
 /// Whether the law of propagation gives a k of an output, and its distribution is another one than that of this k.
@@ -121,6 +123,20 @@ bool needs_convolution(const gum::BudgetPointResult& point, std::size_t output) 
     return coverage == "convolution" ||
            ((coverage == "normal" || coverage == "student_t") &&
             !gum::is_normal_or_student(*point.model, point.propagation, static_cast<Eigen::Index>(output)));
+}
+
+/// Where documents print both values, and wherever the mean of the trials is in doubt.
+std::optional<certificate::ModelValue> model_value(const gum::BudgetPointResult& point, std::size_t output,
+                                                   const gum::Unit& unit) {
+    constexpr double k_least_shift = 0.1;  // of u, from which on documents print both
+    const gum::BudgetOutputResult& of = point.outputs[output];
+    const double value = point.propagation.value(static_cast<Eigen::Index>(output));
+    const bool is_in_doubt = gum::is_mean_in_doubt(point, output);
+    const bool is_other = of.by_monte_carlo && of.has_u && of.monte_carlo &&
+                          std::abs(of.monte_carlo->mean - value) > k_least_shift * of.monte_carlo->standard_uncertainty;
+    return is_in_doubt || is_other
+               ? std::optional(certificate::ModelValue{.value = unit.from_si(value), .is_in_doubt = is_in_doubt})
+               : std::nullopt;
 }
 
 }  // namespace
@@ -156,8 +172,8 @@ certificate::CapabilityInputs capability_inputs(const jobs::BudgetJob& job, cons
             if (!is_decided) {
                 continue;
             }
-            if (gum::is_mean_in_doubt(point, i)) {
-                inputs.at_estimates.emplace(name, unit.from_si(point.propagation.value(output)));
+            if (const auto value = model_value(point, i, unit)) {
+                inputs.at_estimates.emplace(name, *value);
             }
             if (point.outputs[i].by_monte_carlo && point.monte_carlo) {
                 inputs.trials.emplace(name, gum::TrialsOfOutput{.model = point.model,

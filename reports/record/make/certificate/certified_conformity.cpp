@@ -230,27 +230,32 @@ gum::MeasuredValue moved_to(const gum::MeasuredValue& y, double value) {
     return other;
 }
 
-/// Evidence is against the mean of the trials as the value. Where the rule says something else of what the model gives at the
-/// estimates, nothing is decided, and no probability is stated.
+void add_sentence(std::string& note, const std::string& sentence) {
+    note += (note.empty() ? "" : " ") + sentence;
+}
+
+/// The model gives another value at the estimates than the mean of the trials that is stated. What the rule says of it is told
+/// where it differs. Where evidence is against that mean nothing is decided then, and no probability is stated.
 /// \param other  what the rule says of that value
 /// \return whether nothing is decided by it
-bool is_withheld(Verdict& verdict, const ConformityDecision& other) {
+bool is_withheld(Verdict& verdict, bool is_in_doubt, const ConformityDecision& other) {
     const bool has_word = other.rule == gum::DecisionRule::three_way || other.rule == gum::DecisionRule::iso_14253_1;
-    if (verdict.verdict == "not_applicable") {
+    const bool is_same = verdict.verdict == gum::verdict_name(other.verdict);
+    if (verdict.verdict == "not_applicable" || (is_same && !is_in_doubt)) {
         return false;
     }
-    if (verdict.verdict == gum::verdict_name(other.verdict)) {
-        verdict.note += (verdict.note.empty() ? "" : " ") +
-                        std::string(
-                            "At the estimates of the input quantities the measurement model gives another value "
-                            "than the mean of the Monte Carlo trials, and the rule the same verdict.");
+    const std::string model_gives =
+        "At the estimates of the input quantities the measurement model gives another value than the mean of the Monte "
+        "Carlo trials, and the rule ";
+    if (is_same || !is_in_doubt) {
+        add_sentence(verdict.note, model_gives + (is_same ? "the same verdict." : "another verdict."));
         return false;
     }
     verdict.verdict = verdict.verdict_from_printed = has_word ? "undetermined" : "not_applicable";
     verdict.largest_specific_risk.reset();
-    verdict.note =
-        "At the estimates of the input quantities the measurement model gives another value than the mean of the Monte "
-        "Carlo trials, and the rule another verdict: nothing is decided.";
+    verdict.false_accept.reset();
+    verdict.false_reject.reset();
+    verdict.note = model_gives + "another verdict: nothing is decided.";
     return true;
 }
 
@@ -310,10 +315,10 @@ Verdict verdict_of(const AgreedSpecification& specification, const certificate::
         const gum::Diagnostic& first = error.diagnostics().front();
         return not_applicable(verdict, first.what + ": " + first.rule);
     }
-    const bool withheld =
-        known.at_estimates &&
-        is_withheld(verdict, gum::decide_conformity(rule.rule, rule.parameters, rule.limits,
-                                                    moved_to(numbers->unrounded, *known.at_estimates)));
+    const bool withheld = known.at_estimates &&
+                          is_withheld(verdict, known.at_estimates->is_in_doubt,
+                                      gum::decide_conformity(rule.rule, rule.parameters, rule.limits,
+                                                             moved_to(numbers->unrounded, known.at_estimates->value)));
     // Where nothing was decided no probability is printed, and none has to be explained.
     const bool is_open = withheld || (verdict.verdict == "not_applicable" && !verdict.largest_specific_risk);
     if (!known.note.empty() && !is_open && (!known.function || numbers->unrounded.distribution)) {
@@ -331,6 +336,8 @@ Verdict verdict_of(const AgreedSpecification& specification, const certificate::
     }
     print(verdict, shown, decimals, specification.unit != column.unit);
     if (is_open) {
+        // A record has no place for "none" where a probability stands (record/1): it has 0, as where a rule does not apply.
+        verdict.conformance_probability = verdict.specific_risk = 0.0;
         verdict.printed.conformance_probability.clear();
         verdict.printed.specific_risk.clear();
     }

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "certificate/capability_inputs.h"
 #include "certificate/certified_results.h"
 
 namespace gumcert::reports {
@@ -14,10 +15,10 @@ struct KnownDistribution {
     std::function<double(double)> function;  ///< P(Y ≤ x), x in the unit of the column; empty: normal or t
     std::function<double(double)> below;     ///< P(Y < x), where single values have a probability; empty: P(Y ≤ x)
     std::string note;                        ///< English sentence for the verdict; "" without
-    std::uint64_t trials = 0;                ///< of Monte Carlo, that the function counts; 0: it is not from trials
+    std::uint64_t trials = 0;                ///< or draws, that the function counts; 0: it is not from trials
     double least_probability = 0.0;          ///< the function tells nothing of smaller ones
-    /// Value of the measurement model at the estimates, where evidence is against the mean of the trials as the value.
-    std::optional<double> at_estimates = {};
+    /// Of the measurement model at the estimates, where the mean of the trials that is stated is another value.
+    std::optional<certificate::ModelValue> at_estimates = {};
 };
 
 /// Decides on conformity of one value, twice: with the unrounded numbers, and with those that are printed.

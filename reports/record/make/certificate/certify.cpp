@@ -436,9 +436,13 @@ KnownDistribution Certifier::known_distribution(const CertifiedValue& value, con
         if (!known.function) {
             return {};
         }
+        // Draws of correlated inputs leave a probability open as trials do.
+        const std::string drawn =
+            known.draws > 0 ? " Correlated inputs enter it by " + std::to_string(known.draws) + " draws." : "";
         return {.function = std::move(known.function),
                 .below = std::move(known.below),
-                .note = "Probabilities are those of the convolution of all input distributions.",
+                .note = "Probabilities are those of the convolution of all input distributions." + drawn,
+                .trials = known.draws,
                 .least_probability = known.least_probability};
     }
     if (result->coverage == "convolution") {
