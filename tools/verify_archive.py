@@ -762,10 +762,21 @@ class Reading:
         self.path = os.path.realpath(os.fsdecode(path))
         self.before = self.now()
         has_log, may_write = self.before[-1], os.access(self.path, os.W_OK)
+        self.refuse_log_of_another_file()
         may_leave_nothing = may_write and os.access(os.path.dirname(self.path), os.W_OK) and not self.may_have_another_name()
         self.is_immutable = not has_log and not may_leave_nothing
         self.mode = (("mode=ro" if may_write else "mode=ro&readonly_shm=1") if has_log else
                      "mode=ro&immutable=1" if self.is_immutable else "mode=rw")
+
+    def refuse_log_of_another_file(self):
+        """SQLite takes a write-ahead log by its name alone. A file that is written with one says so, as long as there is one (SQLite,
+        Database File Format, 1.3.3); a backup never does: a log beside it is of another archive, and would replace its pages."""
+        log = self.path + "-wal"
+        if os.path.exists(log) and os.path.getsize(log) > 0:
+            with open(self.path, "rb") as archive:
+                start = archive.read(20)
+            if start[19:] == b"\1" and os.path.exists(log) and os.path.getsize(log) > 0:
+                raise OSError(errno.EINVAL, "was written for another archive than the one beside it; move it away", log)
 
     def may_have_another_name(self):
         """Several links, or mounted by itself."""
