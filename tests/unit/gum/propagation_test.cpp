@@ -703,6 +703,13 @@ TEST(SecondOrder, TakesTheMomentsOfInputsThatAreNotNormal) {
     // A t counts as normal with its u, also where it has no kurtosis: ½ (2 u²)² of x² at 0.
     EXPECT_TRUE(agrees(u_of(curve(Distribution::student_t(0.0, 1.0, 3.0), 0.7, square, twice, two)),
                        std::sqrt(2.0) * 0.49, 1e-12));
+    // A step that leaves the domain of the model says nothing: as of a normal input.
+    const auto root = [&](const Distribution& x) {
+        return u_of(curve(
+            x, 0.1, [](double at) { return std::sqrt(at); }, [](double at) { return 0.5 / std::sqrt(at); },
+            [](double at) { return -0.25 / (at * std::sqrt(at)); }));
+    };
+    EXPECT_EQ(root(Distribution::uniform(0.01, std::sqrt(0.03))), root(Distribution::normal(0.01, 0.1)));
 }
 
 TEST(SecondOrder, IsNoneWhereItLeavesTheRangeOfNumbers) {
