@@ -301,6 +301,7 @@ TEST(SettledDecimal, IsTheOneWithinWhatWasLost) {
     EXPECT_EQ(settled_decimal(0.09999999999999998, 1e-16), 0.1);
     EXPECT_EQ(settled_decimal(-0.09999999999999998, 1e-16), -0.1);
     EXPECT_EQ(settled_decimal(0.10000000003, 1e-16), 0.10000000003) << "no decimal number is so near";
+    EXPECT_EQ(settled_decimal(0.12345678901234567, 1e-17), 0.12345678901234567) << "nor here";
     EXPECT_EQ(settled_decimal(0.5, 1e-16), 0.5) << "it has no digit below";
     EXPECT_EQ(settled_decimal(12.0, 1e-3), 12.0);
     constexpr double k_inf = std::numeric_limits<double>::infinity();
