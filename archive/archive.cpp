@@ -521,9 +521,11 @@ Written Archive::take_amendment_number(const std::string& original, const Reques
         const std::string series = series_of_amendments(original);
         LogRules rules = rules_for({original}, "");
         if (!rules.may_be_amended(original)) {
-            refuse_breach({Breach::Kind::amendment, "certificate " + original + " is " + rules.life(original)->state,
-                           k_amendable_rule},
-                          wanted, "");
+            LogEntry of_original = wanted;
+            of_original.certificate = original;
+            refuse_breach({Breach::Kind::amendment,
+                           "certificate " + original + " is " + worded_state(rules.life(original)), k_amendable_rule},
+                          of_original, "");
         }
         // All before the next one were taken, or chosen by hand.
         long long ordinal = 1;

@@ -1,6 +1,7 @@
 #include "archive/evidence.h"
 
 #include <algorithm>
+#include <initializer_list>
 #include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -57,14 +58,20 @@ class EvidenceReader {
 public:
     explicit EvidenceReader(std::string name) : name_(std::move(name)) {}
 
-    [[noreturn]] void refuse(const std::string& at) const {
+    [[noreturn]] void refuse(const std::string& at, const char* what = "is missing or has another form") const {
         throw gum::InputError(gum::Diagnostic{.code = "GC-ARCHIVE-0047",
                                               .where = at.empty() ? name_ : name_ + "#" + at,
-                                              .what = at.empty() ? "is no evidence" : "is missing or has another form",
+                                              .what = at.empty() ? "is no evidence" : what,
                                               .rule = "evidence is the JSON that gumcert archive export writes",
                                               .action = "name a file that gumcert archive export has written"});
     }
 
+    /// Nothing stands in evidence of which nothing would be proved.
+    void require_known(const json& object, const std::string& at, std::initializer_list<std::string_view> known) const {
+        if (const std::string other = member_beside(object, known); !other.empty()) {
+            refuse(at + "/" + text::visible(other), "is no member of evidence that this version knows");
+        }
+    }
     [[nodiscard]] const json& member(const json& object, const std::string& at, const char* key) const {
         const auto found = object.is_object() ? object.find(key) : object.end();
         if (!object.is_object() || found == object.end()) {
@@ -102,6 +109,9 @@ public:
     }
 
     [[nodiscard]] Evidence::ProvenEntry entry(const json& object, const std::string& at) const {
+        require_known(
+            object, at,
+            {"seq", "at", "actor", "kind", "certificate", "record", "request_key", "body", "prev", "hash", "proof"});
         Evidence::ProvenEntry read;
         read.entry = {.seq = integer(object, at, "seq"),
                       .at = text(object, at, "at"),
@@ -118,10 +128,12 @@ public:
     }
     [[nodiscard]] StateStatement states(const json& object) const {
         const std::string at = "/states";
+        require_known(object, at, {"at", "certificates", "signature"});
         StateStatement read{.at = text(object, at, "at"), .certificates = {}};
         std::size_t index = 0;
         for (const json& one : list(object, at, "certificates")) {
             const std::string place = at + "/certificates/" + std::to_string(index++);
+            require_known(one, place, {"certificate", "state", "later", "entries"});
             StateStatement::Certificate stated{
                 text(one, place, "certificate"), text(one, place, "state"), text(one, place, "later"), {}};
             for (const json& seq : list(one, place, "entries")) {
@@ -140,6 +152,7 @@ public:
         return read;
     }
     [[nodiscard]] Head::Extension extension(const json& object, const std::string& at) const {
+        require_known(object, at, {"size", "root", "proof"});
         return {integer(object, at, "size"), hash(text(object, at, "root"), at + "/root"), proof(object, at)};
     }
 
@@ -559,6 +572,8 @@ Evidence evidence_from_json(std::string_view text, const std::string& name) {
     if (!object || !object->is_object() || object->value("schema", json()) != k_evidence_schema) {
         reader.refuse("");
     }
+    reader.require_known(*object, "",
+                         {"schema", "certificate", "head", "entries", "contents", "printed_heads", "states"});
     Evidence evidence;
     evidence.certificate = reader.text(*object, "", "certificate");
     evidence.head = head_in(reader.member(*object, "", "head"), name);
@@ -569,6 +584,7 @@ Evidence evidence_from_json(std::string_view text, const std::string& name) {
     index = 0;
     for (const json& content : reader.list(*object, "", "contents")) {
         const std::string at = "/contents/" + std::to_string(index++);
+        reader.require_known(content, at, {"sha256", "base64"});
         const std::string digits = reader.text(content, at, "base64");
         std::optional<std::string> bytes = encoding::bytes_from_base64(digits);
         // One text for the same bytes: no blanks, no line breaks, no bits behind the last byte.

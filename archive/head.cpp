@@ -1,5 +1,6 @@
 #include "archive/head.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -9,6 +10,7 @@
 #include "gum/quantity/diagnostic.h"
 #include "json/canonical_json.h"
 #include "json/strict_parser.h"
+#include "text/visible_text.h"
 
 namespace gumcert::archive {
 
@@ -18,13 +20,13 @@ constexpr const char* k_head_schema = "gumcert/archive-head/1";
 constexpr std::size_t k_hash_bytes = 32;
 constexpr std::size_t k_signature_bytes = 64;
 
-[[noreturn]] void refuse_head(const std::string& name, const std::string& key) {
-    throw gum::InputError(
-        gum::Diagnostic{.code = "GC-ARCHIVE-0049",
-                        .where = name,
-                        .what = key.empty() ? "is no head of an archive" : key + " is missing or has another form",
-                        .rule = "a head is the JSON that gumcert archive head writes",
-                        .action = "name a file that gumcert archive head has written"});
+[[noreturn]] void refuse_head(const std::string& name, const std::string& key,
+                              const char* what = " is missing or has another form") {
+    throw gum::InputError(gum::Diagnostic{.code = "GC-ARCHIVE-0049",
+                                          .where = name,
+                                          .what = key.empty() ? "is no head of an archive" : key + what,
+                                          .rule = "a head is the JSON that gumcert archive head writes",
+                                          .action = "name a file that gumcert archive head has written"});
 }
 
 /// Bytes that an object has under a key as hexadecimal digits; none where they are not there, or more or fewer.
@@ -45,7 +47,15 @@ std::string bytes_at(const nlohmann::json& object, const char* key, std::size_t 
     return std::move(*bytes);
 }
 
+void require_known(const nlohmann::json& object, std::initializer_list<std::string_view> known,
+                   const std::string& name) {
+    if (const std::string other = member_beside(object, known); !other.empty()) {
+        refuse_head(name, text::visible(other), " is no member of a head that this version knows");
+    }
+}
+
 Head::Extension extension_in(const nlohmann::json& value, const std::string& name) {
+    require_known(value, {"size", "root", "proof"}, name);
     const nlohmann::json size = value.is_object() ? value.value("size", nlohmann::json()) : nlohmann::json();
     const nlohmann::json proof = value.is_object() ? value.value("proof", nlohmann::json()) : nlohmann::json();
     if (!size.is_number_integer() || size.get<std::int64_t>() < 1 || !proof.is_array()) {
@@ -168,8 +178,20 @@ nlohmann::json to_json(const Head::Signature& signature) {
             {"value", encoding::hexadecimal(signature.value)}};
 }
 
+std::string member_beside(const nlohmann::json& object, std::initializer_list<std::string_view> known) {
+    if (object.is_object()) {
+        for (const auto& [key, value] : object.items()) {
+            if (std::find(known.begin(), known.end(), key) == known.end()) {
+                return key.empty() ? "\"\"" : key;
+            }
+        }
+    }
+    return "";
+}
+
 std::optional<Head::Signature> signature_in(const nlohmann::json& value) {
-    if (!value.is_object() || value.value("algorithm", nlohmann::json()) != "Ed25519") {
+    if (!value.is_object() || !member_beside(value, {"algorithm", "public_key", "value"}).empty() ||
+        value.value("algorithm", nlohmann::json()) != "Ed25519") {
         return std::nullopt;
     }
     const std::optional<std::string> key = digits_at(value, "public_key", k_hash_bytes);
@@ -206,6 +228,7 @@ Head head_in(const nlohmann::json& object, const std::string& name) {
     if (!object.is_object() || object.value("schema", nlohmann::json()) != k_head_schema) {
         refuse_head(name, "");
     }
+    require_known(object, {"schema", "archive", "size", "root", "chain", "at", k_clock, "signature", "extends"}, name);
     Head head;
     head.archive = bytes_at(object, "archive", k_hash_bytes, name);
     head.root = bytes_at(object, "root", k_hash_bytes, name);

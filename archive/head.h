@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <initializer_list>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -85,6 +86,9 @@ private:
 [[nodiscard]] Head head_from_json(std::string_view text, const std::string& name);
 /// The same of JSON that was read before.
 [[nodiscard]] Head head_in(const nlohmann::json& value, const std::string& name);
+/// The first member of an object that is none of those that are known, "" where there is none: nothing stands in a head or in evidence
+/// of which nothing would be proved.
+[[nodiscard]] std::string member_beside(const nlohmann::json& object, std::initializer_list<std::string_view> known);
 /// A signature as files have it, with algorithm, key and value.
 [[nodiscard]] nlohmann::json to_json(const Head::Signature& signature);
 /// \return none where it is of another form

@@ -52,11 +52,15 @@ bool has_ended(const CertificateLife& life) {
     return life.state == "amended-by" || life.state == "superseded";
 }
 
-std::string worded_state(const std::string& state) {
-    return state.empty() ? "not in the archive" : state;
-}
-
 }  // namespace
+
+std::string worded_state(const CertificateLife* life) {
+    if (life == nullptr || life->state.empty()) {
+        return "not in the archive";
+    }
+    const std::string state = life->state == "amended-by" ? "amended" : life->state;
+    return has_ended(*life) && !life->later.empty() ? state + " by " + life->later : state;
+}
 
 std::string series_of_amendments(const std::string& original) {
     return original + "/A";
@@ -257,10 +261,10 @@ std::optional<Breach> LogRules::breach_of_life(const LogEntry& entry, const json
     const CertificateLife* const found = life(entry.certificate);
     const CertificateLife& life = found != nullptr ? *found : k_none;
     if (!ways().at(life.state).contains(entry.kind) || (has_ended(life) && !may_be_amended(entry.certificate))) {
-        return breach(
-            Breach::Kind::life,
-            "certificate " + entry.certificate + " is " + worded_state(life.state) + ", and not to be " + entry.kind,
-            "a certificate is drafted, reviewed, authorised, issued; then amended, superseded or withdrawn");
+        return breach(Breach::Kind::life,
+                      "certificate " + entry.certificate + " is " + worded_state(&life) + ", and not to be " +
+                          (entry.kind == "amended-by" ? "amended" : entry.kind),
+                      "a certificate is drafted, reviewed, authorised, issued; then amended, superseded or withdrawn");
     }
     if (text_of(member(body, "old"), "state") != life.state || text_of(member(body, "new"), "state") != entry.kind) {
         return breach(Breach::Kind::form, "old or new state is another one",
@@ -287,10 +291,8 @@ std::optional<Breach> LogRules::breach_of_life(const LogEntry& entry, const json
         if (!life.amends.empty()) {
             const CertificateLife* const original = this->life(life.amends);
             if (!may_be_amended(life.amends)) {
-                return breach(
-                    Breach::Kind::amendment,
-                    "certificate " + life.amends + " is " + worded_state(original == nullptr ? "" : original->state),
-                    k_amendable_rule);
+                return breach(Breach::Kind::amendment, "certificate " + life.amends + " is " + worded_state(original),
+                              k_amendable_rule);
             }
         }
     }
@@ -330,10 +332,8 @@ std::optional<Breach> LogRules::breach_of_draft(const LogEntry& entry, const jso
         const std::string kind = text_of(amends, "kind");
         const CertificateLife* const original = this->life(original_number);
         if (!may_be_amended(original_number) || original_number == entry.certificate) {
-            return breach(
-                Breach::Kind::amendment,
-                "certificate " + original_number + " is " + worded_state(original == nullptr ? "" : original->state),
-                k_amendable_rule);
+            return breach(Breach::Kind::amendment, "certificate " + original_number + " is " + worded_state(original),
+                          k_amendable_rule);
         }
         if ((kind != "amended" && kind != "replaced") || text_of(body, "why").empty() ||
             !member(amends, "changes").is_array() || member(amends, "changes").empty()) {

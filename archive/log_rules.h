@@ -83,6 +83,10 @@ private:
     void apply(const LogEntry& entry, const nlohmann::json& body);
 };
 
+/// The state of a certificate in a sentence that begins "certificate EX-1 is": "amended by EX-1/A1".
+/// \param life  none where the archive knows nothing of it
+[[nodiscard]] std::string worded_state(const CertificateLife* life);
+
 /// The rule for originals of amendments.
 inline constexpr const char* k_amendable_rule =
     "an amendment amends or replaces a certificate that is issued and holds, or whose amendment was withdrawn";

@@ -492,7 +492,8 @@ Eigen::VectorXd moments_beyond_normal(const MeasurementModel& model, const Propa
             // would make 500 times as much of it.
             double third = y(at + 3, k) - 2.0 * y(at + 2, k) + 2.0 * y(at + 1, k) - y(at, k);
             const double rounding = 32.0 * k_epsilon * y.col(k).segment(at, 4).cwiseAbs().maxCoeff();
-            third = std::abs(third) > rounding ? third / (2.0 * k_step * k_step * k_step) : 0.0;  // times u³
+            // Times u³; not finite where a step leaves the domain of the model.
+            third = std::abs(third) <= rounding ? 0.0 : third / (2.0 * k_step * k_step * k_step);
             added(k) += c * h * input.skewness * u * u * u +
                         (0.25 * h * h * u * u * u * u + c * u * third / 3.0) * input.excess;
         }

@@ -107,7 +107,7 @@ std::vector<CountedWeight> on_nodes(std::span<const CountedWeight> cell) {
         // Lagrange's polynomials in barycentric form.
         double sum = 0.0;
         std::size_t hit = k_nodes_of_cell;
-        for (std::size_t j = 0; j < k_nodes_of_cell && hit == k_nodes_of_cell; ++j) {
+        for (std::size_t j = 0; j < k_nodes_of_cell; ++j) {
             const double angle =
                 (static_cast<double>(j) + 0.5) * std::numbers::pi / static_cast<double>(k_nodes_of_cell);
             if (at == nodes[j]) {

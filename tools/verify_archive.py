@@ -294,6 +294,13 @@ def typed(value, key, kind):
     return found
 
 
+def require_known(value, *keys):
+    """Nothing stands in evidence, or in a head, of which nothing would be proved."""
+    for key in value if isinstance(value, dict) else ():
+        if key not in keys:
+            raise ValueError(f"{key!r} is no member that this version knows")
+
+
 def hashed(digits):
     if type(digits) is not str or not DIGEST.fullmatch(digits):
         raise ValueError("a hash of 32 bytes is missing")
@@ -302,11 +309,13 @@ def hashed(digits):
 
 def extension(value):
     """Size, root and proof of an earlier tree."""
+    require_known(value, "size", "root", "proof")
     return typed(value, "size", int), hashed(value["root"]), [hashed(one) for one in typed(value, "proof", list)]
 
 
 def signature_in(value):
     """Key and signature, in hexadecimal digits."""
+    require_known(value, "algorithm", "public_key", "value")
     if typed(value, "algorithm", str) != "Ed25519" or not DIGEST.fullmatch(typed(value, "public_key", str)) or not re.fullmatch(
             "[0-9a-f]{128}", typed(value, "value", str)):
         raise ValueError("a signature is missing or has another form")
@@ -671,6 +680,7 @@ class Head:
     def __init__(self, value):
         if not isinstance(value, dict) or value.get("schema") != "gumcert/archive-head/1":
             raise ValueError("no head of an archive")
+        require_known(value, "schema", "archive", "size", "root", "chain", "at", "clock", "signature", "extends")
         try:
             self.archive, self.root, self.chain = (hashed(value[key]) for key in ("archive", "root", "chain"))
             self.size, self.at = typed(value, "size", int), typed(value, "at", str).encode()
@@ -762,10 +772,21 @@ class Reading:
         self.path = os.path.realpath(os.fsdecode(path))
         self.before = self.now()
         has_log, may_write = self.before[-1], os.access(self.path, os.W_OK)
+        self.refuse_log_of_another_file()
         may_leave_nothing = may_write and os.access(os.path.dirname(self.path), os.W_OK) and not self.may_have_another_name()
         self.is_immutable = not has_log and not may_leave_nothing
         self.mode = (("mode=ro" if may_write else "mode=ro&readonly_shm=1") if has_log else
                      "mode=ro&immutable=1" if self.is_immutable else "mode=rw")
+
+    def refuse_log_of_another_file(self):
+        """SQLite takes a write-ahead log by its name alone. A file that is written with one says so, as long as there is one (SQLite,
+        Database File Format, 1.3.3); a backup never does: a log beside it is of another archive, and would replace its pages."""
+        log = self.path + "-wal"
+        if os.path.exists(log) and os.path.getsize(log) > 0:
+            with open(self.path, "rb") as archive:
+                start = archive.read(20)
+            if start[19:] == b"\1" and os.path.exists(log) and os.path.getsize(log) > 0:
+                raise OSError(errno.EINVAL, "was written for another archive than the one beside it; move it away", log)
 
     def may_have_another_name(self):
         """Several links, or mounted by itself."""
@@ -915,6 +936,7 @@ class States:
     """What the laboratory signed of the certificates in evidence: all their entries, and their states."""
 
     def __init__(self, value, head, certificate):
+        require_known(value, "at", "certificates", "signature")
         self.at, self.signature = typed(value, "at", str), signature_in(value["signature"])
         self.certificates = [(typed(one, "certificate", str), typed(one, "state", str), typed(one, "later", str),
                               self.sequence_numbers(one)) for one in typed(value, "certificates", list)]
@@ -925,6 +947,7 @@ class States:
 
     @staticmethod
     def sequence_numbers(value):
+        require_known(value, "certificate", "state", "later", "entries")
         numbers = typed(value, "entries", list)
         if any(type(one) is not int for one in numbers):
             raise ValueError("entries of a statement have another form")
@@ -948,6 +971,7 @@ class States:
 def contents_of(value):
     """Bytes by SHA-256, each text of Base64 being the one that its bytes give."""
     for content in typed(value, "contents", list):
+        require_known(content, "sha256", "base64")
         digest, digits = typed(content, "sha256", str), typed(content, "base64", str)
         data = base64.b64decode(digits, validate=True)
         if len(digits) > LONGEST_CONTENT or base64.b64encode(data).decode() != digits:
@@ -988,6 +1012,7 @@ def faults_of_head(other, head, known, proved):
 
 def verify_evidence(value, heads, public_key, verdict, known=()):
     """Findings of the evidence of one certificate; what it says goes into the verdict."""
+    require_known(value, "schema", "certificate", "head", "entries", "contents", "printed_heads", "states")
     head, number = Head(value.get("head")), typed(value, "certificate", str)
     yield from head.faults("the head of the evidence", public_key)
     rules, needed, drafts, last = Rules(judges_numbers=False), {}, {}, 0
@@ -996,6 +1021,8 @@ def verify_evidence(value, heads, public_key, verdict, known=()):
     proved = {(size, root) for size, root, proof in printed if head.begins_with(size, root, proof)}
     states = States(value["states"], head, number) if "states" in value else None
     contents = list(contents_of(value))
+    for one in typed(value, "entries", list):
+        require_known(one, *FIELDS, "hash", "proof")
     written = [({name: typed(one, name, int) if name == "seq" else
                  hashed(one[name]) if name in ("prev", "hash") else typed(one, name, str).encode() for name in FIELDS},
                 [hashed(node) for node in typed(one, "proof", list)]) for one in typed(value, "entries", list)]

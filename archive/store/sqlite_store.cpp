@@ -10,6 +10,7 @@
 #include <array>
 #include <cerrno>
 #include <exception>
+#include <fstream>
 #include <new>
 #include <system_error>
 #include <utility>
@@ -183,6 +184,30 @@ std::string address_of(const fs::path& real, const char* parameter) {
                                                              : "%" + encoding::hexadecimal(std::string_view(&c, 1));
     }
     return address + "?" + parameter;
+}
+
+/// SQLite takes a write-ahead log by its name alone, whichever file it was written for, and replaces pages of the file by its own.
+/// A file that is written with such a log says so before there is one, and no longer when there is none (SQLite, Database
+/// File Format, 1.3.3); a backup never does. So a log beside a file that says it has none was left by another archive.
+void refuse_log_of_another_file(const fs::path& file) {
+    std::error_code error;
+    const fs::path real = fs::canonical(file, error);
+    const fs::path log = real.string() + "-wal";
+    const auto has_entries = [&] { return fs::file_size(log, error) > 0 && !error; };
+    if (error || !has_entries()) {
+        return;
+    }
+    constexpr std::size_t k_place_of_version = 19;  // that a reader needs
+    constexpr char k_without_log = 1;
+    std::array<char, k_place_of_version + 1> start{};
+    std::ifstream in(real, std::ios::binary);
+    // Asked again: while the first writer of a file begins a log, none of it is there before the file says so.
+    if (in.read(start.data(), start.size()) && start.back() == k_without_log && has_entries()) {
+        refuse_store("GC-ARCHIVE-0015", log,
+                     "was written for another archive than the one beside it, which has no such file",
+                     "a write-ahead log belongs to the file that it was written for",
+                     "move it away with the file of the former archive, whose last entries may stand in it");
+    }
 }
 
 bool may_write(const fs::path& place) {
@@ -552,6 +577,7 @@ std::unique_ptr<Store> open_sqlite_store(const fs::path& file, Access access) {
         require_one_name(file, identity_of(file));
         require_rights_to_write(file);
     }
+    refuse_log_of_another_file(file);
     const Reading reading = access == Access::read_only ? reading_of(file) : Reading{.flags = SQLITE_OPEN_READWRITE};
     const StateOfFile before = reading.unlocked.empty() ? StateOfFile{} : state_of(reading.unlocked);
     Database database = open_database(file, reading.flags, reading.address);

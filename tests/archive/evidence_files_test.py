@@ -7,6 +7,7 @@
 - both have the same list of hidden characters, and the same range of heads that documents print
 - an entry that is left out of evidence that the laboratory signed is found, whichever it is
 - what is not proved is not told as proved: unsigned evidence, no trusted key, a newer head
+- nothing can be added: a member that is not known is refused, wherever it stands
 - no text of a file brings a line or a control character of its own to the terminal
 """
 
@@ -103,6 +104,19 @@ def changed(value, path, change):
         parent, key = parent[key], step
     change(parent, key)
     return whole[""]
+
+
+def objects_in(value):
+    """The places of one object of each kind: of the first in a list."""
+    return [path for path in places({"": value}) if path and not any(type(step) is int and step for step in path)
+            and isinstance(functools.reduce(lambda inner, step: inner[step], path, {"": value}), dict)]
+
+
+def with_member(key):
+    """One that nobody knows."""
+    def change(parent, place):
+        parent[place][key] = "valid until 2031"
+    return change
 
 
 def removed(parent, key):
@@ -449,6 +463,9 @@ def main():
             both.judge(f"{key} of the head is {value!r}", {**plain, "head": {**plain["head"], key: value}}, sound=False)
         for value in ("RSA", None, ""):
             both.judge(f"algorithm {value!r}", changed(signed, ("head", "signature", "algorithm"), set_to(value)), sound=False)
+        for path in objects_in(signed):
+            for key in ("remark", "", "a\nb"):
+                both.judge(f"a member {key!r} more at {path[1:]}", changed({"": signed}, path, with_member(key))[""], sound=False)
         digits = signed["contents"][0]["base64"]
         for value in (digits + "=", digits + "====", digits + "\n", digits[:8] + "\n" + digits[8:], " " + digits, digits.replace("=", "")[:-1], "====", "*"):
             both.judge(f"Base64 {value[-9:]!r}", changed(signed, ("contents", 0, "base64"), set_to(value)), sound=False)

@@ -8,6 +8,7 @@
 - an archive with several names is read by each of them, and written by none
 - an action that reads, and the second verifier, leave no file beside an archive, and the archive with its bytes
 - entries that stand in the write-ahead log are read, and stay there
+- a log that was written for another archive is refused by all of them, and nothing is changed
 - what cannot be read is exit code 5 for both, not an archive that is not sound
 """
 
@@ -19,6 +20,7 @@ import sqlite3
 import subprocess
 import sys
 import tempfile
+import time
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 NOBODY = 65534
@@ -66,6 +68,8 @@ def main():
         folder.mkdir()
         archive = folder / "a%20.archive"
         subprocess.run([driver, "fill", archive, "3", ROOT / "tests" / "fuzz" / "corpus" / "archive" / "superseded.json"], check=True)
+        backup = base / "backup.archive"
+        subprocess.run([options.program, "archive", "backup", "--store", archive, "--by", "K", "--today", time.strftime("%Y-%m-%d", time.gmtime()), "-o", backup], check=True, capture_output=True)
         with sqlite3.connect(f"file:{archive.as_posix().replace('%', '%25').replace('#', '%23').replace('?', '%3f')}?mode=ro", uri=True) as database:
             number = database.execute("SELECT certificate FROM listed ORDER BY certificate").fetchone()[0]
         database.close()
@@ -134,6 +138,17 @@ def main():
                  if reader in ("verify", "verify_archive.py")}
         expect(set(codes.values()) == {5}, f"a log that cannot be read: {codes}")
         other.chmod(0o755)
+
+        # A backup at the place of an archive whose log was left: SQLite would replace its pages.
+        restored = base / "restored"
+        restored.mkdir()
+        shutil.copy(backup, restored / "b.archive")
+        (restored / "b.archive-wal").write_bytes(before["b.archive-wal"])
+        before = files_in(restored)
+        for reader, ended in readers.all(restored / "b.archive", number):
+            expect(ended.returncode == 5 and "was written for another archive" in ended.stderr,
+                   f"{reader}, a log of another archive: {ended.returncode} {ended.stdout}{ended.stderr}")
+        expect(files_in(restored) == before, "a backup, or the log beside it, was changed")
     print(f"{len(faults)} faults")
     return 1 if faults else 0
 

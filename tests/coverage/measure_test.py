@@ -27,6 +27,20 @@ class Coverage(unittest.TestCase):
         counted = measure.counts_of([report("gum/a.cpp", line(1, 2, [(2, False), (0, False), (0, True)]), line(2, 1, [(1, False), (0, True)]))])
         self.assertEqual(measure.sums_of(*counted), {"gum": [2, 2, 2, 1]})
 
+    def test_ways_in_code_that_only_an_exception_reaches_are_no_branches(self):
+        text = ("        -:    0:Source:gum/a.cpp\n        -:    7:// nothing\n        4:    8:    return a ? text(1) : text(2);\n"
+                "branch  0 taken 3 (fallthrough)\nbranch  1 taken 0\n        3:    8-block  0\ncall    2 returned 3\n    $$$$$:    8-block  1\n"
+                "branch  3 never executed\nbranch  4 never executed\n    %%%%%:    8-block  2\nbranch  5 never executed\nbranch  6 never executed\n")
+        ways = measure.ways_of_text(text)
+        self.assertEqual(ways["gum/a.cpp", 8], [[(3, False), (0, False), (0, True), (0, True), (0, False), (0, False)]])
+
+        def sums(*counts):
+            marked = measure.without_exceptional(report("gum/a.cpp", line(8, 4, [(count, False) for count in counts])), ways)
+            return measure.sums_of(*measure.counts_of([marked]))["gum"]
+
+        self.assertEqual(sums(3, 0, 0, 0, 0, 0), [1, 1, 4, 1])
+        self.assertEqual(sums(2, 1, 0, 0, 0, 0), [1, 1, 6, 2], "another instance, of which the text says nothing")
+
     def test_a_closing_bracket_is_no_condition(self):
         with tempfile.TemporaryDirectory() as folder:
             source = pathlib.Path(folder) / "gum/a.cpp"

@@ -277,6 +277,13 @@ TYPED_TEST(ArchiveLaws, AmendsAnOriginalWhoseAmendmentWasWithdrawn) {
     };
     EXPECT_EQ(amend(), number + "/A1");
     EXPECT_EQ(withdraw(number), "GC-ARCHIVE-0021") << "its amendment holds";
+    try {
+        (void)this->archive_->take_amendment_number(number, this->by("A. Author"));
+        ADD_FAILURE() << "its amendment holds";
+    } catch (const gum::InputError& refusal) {
+        EXPECT_EQ(refusal.diagnostics().front().where, number);
+        EXPECT_EQ(refusal.diagnostics().front().what, "certificate " + number + " is amended by " + number + "/A1");
+    }
     EXPECT_EQ(withdraw(number + "/A1"), "");
     EXPECT_EQ(amend(), number + "/A2");
     EXPECT_EQ(this->archive_->life(number).later, number + "/A2");

@@ -220,5 +220,23 @@ TEST_F(EvidenceOfCertificates, IsRefusedWhereItHasAnotherForm) {
     }
 }
 
+/// A remark that somebody adds would be read as a part of what was found to be sound.
+TEST_F(EvidenceOfCertificates, HoldsNothingThatIsNotProved) {
+    Evidence evidence = evidence_of(*store_, drafted());
+    evidence.states = states_in(evidence, evidence.head.at);
+    evidence.states->signature = {std::string(32, '\3'), std::string(64, '\4')};
+    evidence.printed_heads = {{1, evidence.head.archive, {}}};
+    const json good = json::parse(to_json(evidence));
+    ASSERT_EQ(code_of([&] { (void)evidence_from_json(good.dump(), "evidence.json"); }), "");
+    for (const char* const place : {"", "/entries/0", "/contents/0", "/printed_heads/0", "/states", "/states/signature",
+                                    "/states/certificates/0", "/head"}) {
+        json more = good;
+        more[json::json_pointer(place)]["remark"] = "valid until 2031";
+        EXPECT_EQ(code_of([&] { (void)evidence_from_json(more.dump(), "evidence.json"); }),
+                  std::string_view(place) == "/head" ? "GC-ARCHIVE-0049" : "GC-ARCHIVE-0047")
+            << place;
+    }
+}
+
 }  // namespace
 }  // namespace gumcert::archive

@@ -85,6 +85,27 @@ TEST(ArchiveHead, IsRefusedWhereItHasAnotherForm) {
     EXPECT_EQ(test::code_of([&] { (void)head_from_json("[", "head.json"); }), "GC-ARCHIVE-0049");
 }
 
+TEST(ArchiveHead, HoldsNothingThatIsNotProved) {
+    Head head = sample_head();
+    head.clock = "2026-10-24T18:52:52Z";
+    head.signature = Head::Signature{std::string(32, '\3'), std::string(64, '\4')};
+    head.extends = Head::Extension{3, std::string(32, '\5'), {}};
+    const nlohmann::json good = nlohmann::json::parse(to_json(head));
+    for (const char* const place : {"", "/signature", "/extends"}) {
+        nlohmann::json more = good;
+        more[nlohmann::json::json_pointer(place)]["remark"] = "valid until 2031";
+        EXPECT_EQ(test::code_of([&] { (void)head_from_json(more.dump(), "head.json"); }), "GC-ARCHIVE-0049") << place;
+    }
+}
+
+TEST(MemberBeside, IsTheFirstThatIsNotKnown) {
+    const nlohmann::json object = {{"b", 1}, {"a", 2}, {"c", 3}};
+    EXPECT_EQ(member_beside(object, {"a", "b", "c", "d"}), "");
+    EXPECT_EQ(member_beside(object, {"a"}), "b");
+    EXPECT_EQ(member_beside({{"", 1}}, {"a"}), "\"\"");
+    EXPECT_EQ(member_beside(nlohmann::json::array({1}), {"a"}), "");
+}
+
 /// What a clock can say, and nothing else: of every month its last day, and not the one behind it.
 TEST(UtcTime, IsOneThatThereIs) {
     const int days[] = {31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};

@@ -367,5 +367,21 @@ TEST(BodyOfAnEntry, IsReadWithoutTrust) {
     EXPECT_TRUE(rules.lives().empty());
 }
 
+TEST(WordedState, IsAPartOfASentence) {
+    EXPECT_EQ(worded_state(nullptr), "not in the archive");
+    CertificateLife life;
+    EXPECT_EQ(worded_state(&life), "not in the archive");
+    life.state = "issued";
+    EXPECT_EQ(worded_state(&life), "issued");
+    life.state = "amended-by";
+    EXPECT_EQ(worded_state(&life), "amended");
+    life.later = "EX-1/A1";
+    EXPECT_EQ(worded_state(&life), "amended by EX-1/A1");
+    life.state = "superseded";
+    EXPECT_EQ(worded_state(&life), "superseded by EX-1/A1");
+    life.state = "withdrawn";
+    EXPECT_EQ(worded_state(&life), "withdrawn");
+}
+
 }  // namespace
 }  // namespace gumcert::archive

@@ -306,5 +306,42 @@ TEST(AnalysisOfVariance, RefusesBadInput) {
               "GC-GUM-0074");
 }
 
+TEST(AnalysisOfVariance, NestedDesignsThatCannotBeAnalysed) {
+    const auto message = [](const std::vector<Groups>& readings) {
+        return message_of<InputError>([&] { (void)nested_analysis(readings); });
+    };
+    const std::string rule =
+        " — needs at least 2 groups of at least 2 subgroups of at least 2 readings, the same number in each — Complete "
+        "the design, or take the means of subgroups and analyse these one-way.";
+    EXPECT_EQ(message({{{1, 2}, {3, 4}}}), "nested analysis of variance — 1 group of 2 subgroups of 2 readings" + rule);
+    EXPECT_EQ(message({{{1, 2}}, {{3, 4}}}),
+              "nested analysis of variance — 2 groups of 1 subgroups of 2 readings" + rule);
+    EXPECT_EQ(message({{{1, 2}, {3, 4}}, {{1, 2}, {3, 4}, {5, 6}}}),
+              "nested analysis of variance — groups or subgroups of different sizes" + rule);
+    EXPECT_EQ(message({{{1, 2}, {3, 4}}, {{1, 2}, {3, 4, 5}}}),
+              "nested analysis of variance — groups or subgroups of different sizes" + rule);
+    EXPECT_EQ(message({{}, {}}), "nested analysis of variance — 2 groups of 0 subgroups of 0 readings" + rule);
+    for (const double one : {2.0, 0.0}) {
+        const Groups alike{{one, one}, {one, one}};
+        EXPECT_EQ(code_of<NoResultError>([&] {
+                      (void)nested_analysis(std::vector<Groups>{alike, alike});
+                  }),
+                  "GC-GUM-0073");
+    }
+    const Groups huge{{1e308, -1e308}, {1e308, -1e308}};
+    EXPECT_EQ(code_of<NoResultError>([&] { (void)nested_analysis(std::vector<Groups>{huge, huge}); }), "GC-GUM-0073");
+}
+
+// F(2, ν): P(F > f) = (1 + 2 f/ν)^(−ν/2), so that the critical value is ν/2 (α^(−2/ν) − 1), which 1e-16 and a tenth of a
+// degree of freedom bring to 10^318.
+TEST(AnalysisOfVariance, CriticalValuesOfFewDegreesOfFreedom) {
+    EXPECT_TRUE(agrees(f_critical_value(0.75, 2, 0.5), 0.25 * (256.0 - 1.0), 1e-10));
+    const std::string message = message_of<NoResultError>([] { (void)f_critical_value(1.0 - 0x1p-53, 2, 0.09); });
+    EXPECT_EQ(
+        message,
+        "critical value of F — no finite value for probability 0.9999999999999999, 2 and 0.09 degrees of freedom — a "
+        "test needs a finite critical value — Choose a probability that is farther from 1.");
+}
+
 }  // namespace
 }  // namespace gumcert::gum

@@ -344,5 +344,19 @@ TEST(EllipsoidFactor, RefusesWhatHasNoFactor) {
     EXPECT_EQ(code_of<NoResultError>([] { (void)ellipsoid_coverage_factor(0.95, 3, 2.0000001); }), "GC-GUM-0010");
 }
 
+// Student's t with 1 and 2 degrees of freedom has closed forms: 1 − (2/π) atan t, and 1 − t/√(2 + t²).
+TEST(TwoSidedTailOfT, ClosedForms) {
+    for (const double t : {0.0, 0.3, 1.0, 4.303, 12.706}) {
+        EXPECT_NEAR(two_sided_tail_of_t(t, 1.0), 1.0 - 2.0 / std::numbers::pi * std::atan(t), 1e-15) << t;
+        EXPECT_NEAR(two_sided_tail_of_t(t, 2.0), 1.0 - t / std::sqrt(2.0 + t * t), 1e-15) << t;
+        EXPECT_TRUE(agrees(two_sided_tail_of_t(t, k_infinity), std::erfc(t / std::numbers::sqrt2), 1e-14)) << t;
+    }
+    for (const double nu : {1.0, 3.5, 40.0, k_infinity}) {
+        EXPECT_TRUE(agrees(two_sided_tail_of_t(coverage_factor(0.95, nu), nu), 0.05, 1e-12)) << nu;
+    }
+    EXPECT_EQ(code_of<InputError>([] { (void)two_sided_tail_of_t(-1.0, 3.0); }), "GC-GUM-0002");
+    EXPECT_EQ(code_of<InputError>([] { (void)two_sided_tail_of_t(1.0, 0.0); }), "GC-GUM-0005");
+}
+
 }  // namespace
 }  // namespace gumcert::gum

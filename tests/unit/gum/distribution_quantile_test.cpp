@@ -7,6 +7,7 @@
 #include <memory>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "gum/coverage.h"
@@ -174,6 +175,103 @@ TEST(DistributionQuantile, RefusesWhatIsOutOfRange) {
     EXPECT_NE(distribution_problem({.kind = DistributionKind::constant, .location = k_infinity}), "");
     EXPECT_NE(distribution_problem({.kind = DistributionKind::constant, .scale = 1.0}), "");
     EXPECT_EQ(distribution_problem(Distribution::constant(1.0)), "");
+}
+
+// Densities at and beyond the ends of the standard distributions, from their formulae: JCGM 101:2008, 6.4, for those that it
+// has; gamma and beta of the shape 1 are the exponential and a power.
+TEST(DistributionQuantile, DensitiesAtTheEnds) {
+    struct Case {
+        Distribution distribution;
+        double x, density;
+    };
+    const double r = 0.5;
+    for (const Case& one :
+         std::vector<Case>{{standard(DistributionKind::uniform), 1.0, 0.5},
+                           {standard(DistributionKind::uniform), -1.1, 0.0},
+                           {standard(DistributionKind::triangular), 1.0, 0.0},
+                           {standard(DistributionKind::triangular), 0.0, 1.0},
+                           {standard(DistributionKind::arcsine), 1.0, k_infinity},
+                           {standard(DistributionKind::arcsine), -1.5, 0.0},
+                           {standard(DistributionKind::trapezoidal, r), 0.5, 1.0 / 1.5},
+                           {standard(DistributionKind::trapezoidal, r), 1.0, 0.0},
+                           {standard(DistributionKind::trapezoidal, r), -1.01, 0.0},
+                           {standard(DistributionKind::curvilinear_trapezoid, r), 1.5, 0.0},
+                           {standard(DistributionKind::curvilinear_trapezoid, r), -1.6, 0.0},
+                           {standard(DistributionKind::curvilinear_trapezoid, r), 0.2, std::log(3.0) / 2.0},
+                           {standard(DistributionKind::curvilinear_trapezoid, 0.0), 0.9, 0.5},
+                           {standard(DistributionKind::curvilinear_trapezoid, 0.0), 1.1, 0.0},
+                           {standard(DistributionKind::student_t, 5.0), k_infinity, 0.0},
+                           {standard(DistributionKind::student_t, 1.0), 1.0, 0.5 / std::numbers::pi},
+                           {standard(DistributionKind::exponential), 0.0, 1.0},
+                           {standard(DistributionKind::exponential), -1e-9, 0.0},
+                           {standard(DistributionKind::lognormal, 0.5), 0.0, 0.0},
+                           {standard(DistributionKind::lognormal, 0.5), k_infinity, 0.0},
+                           {standard(DistributionKind::lognormal, 0.5), 1.0, 2.0 / std::sqrt(2.0 * std::numbers::pi)},
+                           {standard(DistributionKind::gamma, 2.0), -1.0, 0.0},
+                           {standard(DistributionKind::gamma, 2.0), k_infinity, 0.0},
+                           {standard(DistributionKind::gamma, 2.0), 0.0, 0.0},
+                           {standard(DistributionKind::gamma, 1.0), 0.0, 1.0},
+                           {standard(DistributionKind::gamma, 0.5), 0.0, k_infinity},
+                           {standard(DistributionKind::beta, 2.0, 3.0), -0.1, 0.0},
+                           {standard(DistributionKind::beta, 2.0, 3.0), 1.1, 0.0},
+                           {standard(DistributionKind::beta, 2.0, 3.0), 0.0, 0.0},
+                           {standard(DistributionKind::beta, 2.0, 3.0), 1.0, 0.0},
+                           {standard(DistributionKind::beta, 1.0, 3.0), 0.0, 3.0},
+                           {standard(DistributionKind::beta, 4.0, 1.0), 1.0, 4.0},
+                           {standard(DistributionKind::beta, 0.5, 3.0), 0.0, k_infinity},
+                           {standard(DistributionKind::beta, 3.0, 0.5), 1.0, k_infinity},
+                           {{.kind = DistributionKind::uniform, .location = 10.0, .scale = 4.0}, 13.0, 0.125}}) {
+        const double found = probability_density(one.distribution, one.x);
+        EXPECT_TRUE(found == one.density || agrees(found, one.density, 1e-14))
+            << name(one.distribution) << " at " << one.x << ": " << found;
+    }
+}
+
+TEST(DistributionQuantile, TailsAndQuantilesAtTheEnds) {
+    for (const Distribution& distribution : continuous_distributions()) {
+        const double low = quantile(distribution, 0.0), high = quantile(distribution, 1.0);
+        EXPECT_EQ(upper_quantile(distribution, 1.0), low) << name(distribution);
+        EXPECT_EQ(upper_quantile(distribution, 0.0), high) << name(distribution);
+        EXPECT_EQ(lower_tail_probability(distribution, low), 0.0) << name(distribution);
+        EXPECT_EQ(upper_tail_probability(distribution, low), 1.0) << name(distribution);
+        EXPECT_EQ(lower_tail_probability(distribution, high), 1.0) << name(distribution);
+        EXPECT_EQ(upper_tail_probability(distribution, high), 0.0) << name(distribution);
+        EXPECT_EQ(lower_tail_probability(distribution, -k_infinity), 0.0) << name(distribution);
+        EXPECT_EQ(upper_tail_probability(distribution, k_infinity), 0.0) << name(distribution);
+    }
+    const Distribution constant = Distribution::constant(3.0);
+    EXPECT_EQ(lower_tail_probability(constant, std::nextafter(3.0, 0.0)), 0.0);
+    EXPECT_EQ(upper_tail_probability(constant, std::nextafter(3.0, 0.0)), 1.0);
+    EXPECT_EQ(lower_tail_probability(constant, 3.0), 1.0);
+    EXPECT_EQ(upper_tail_probability(constant, 3.0), 0.0);
+}
+
+TEST(DistributionQuantile, SaysWhatCannotBeUsed) {
+    const auto samples = [](std::vector<double> values) {
+        return distribution_problem({.kind = DistributionKind::empirical,
+                                     .scale = 1.0,
+                                     .samples = std::make_shared<const std::vector<double>>(std::move(values))});
+    };
+    EXPECT_EQ(samples({}), "no samples; needs at least one");
+    EXPECT_EQ(samples({1.0, k_infinity}), "a sample that is not finite; samples must be finite");
+    EXPECT_EQ(samples({2.0, 1.0}), "samples not in ascending order; must be sorted");
+    EXPECT_EQ(samples({1.0, 1.0, 2.0}), "");
+    EXPECT_EQ(distribution_problem(standard(DistributionKind::trapezoidal, -0.1)), "shape -0.1; must be from 0 to 1");
+    EXPECT_EQ(distribution_problem(standard(DistributionKind::gamma, 0.0)),
+              "shape 0; must be finite and greater than 0");
+    EXPECT_EQ(distribution_problem(standard(DistributionKind::lognormal, k_infinity)),
+              "shape inf; must be finite and greater than 0");
+    EXPECT_EQ(distribution_problem(standard(DistributionKind::beta, 0.0, 1.0)),
+              "shape alpha 0; must be finite and greater than 0");
+    for (const double none : {-0.1, 1.1, std::nan("")}) {
+        EXPECT_EQ(code_of<InputError>([&] { (void)quantile(Distribution::normal(0.0, 1.0), none); }), "GC-GUM-0125");
+        EXPECT_EQ(code_of<InputError>([&] { (void)upper_quantile(Distribution::normal(0.0, 1.0), none); }),
+                  "GC-GUM-0125");
+    }
+    EXPECT_EQ(code_of<InputError>([] { (void)upper_tail_probability(Distribution::normal(0.0, 1.0), std::nan("")); }),
+              "GC-GUM-0125");
+    EXPECT_EQ(code_of<InputError>([] { (void)probability_density(Distribution::normal(0.0, 1.0), std::nan("")); }),
+              "GC-GUM-0125");
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "gum/expression/equation_model.h"
@@ -136,6 +137,66 @@ TEST(LinearSkewness, IsThatOfTheOnlyInput) {
     EXPECT_NEAR(linear_skewness(one, propagate(one, 0.95), 0), 1.0, 1e-12);  // 2/√4
     const Model difference("-a + b", {input("a", 4.0, 2.0, gamma), input("b", 0.0, 2.0)});
     EXPECT_NEAR(linear_skewness(difference, propagate(difference, 0.95), 0), -1.0 / std::pow(2.0, 1.5), 1e-12);
+}
+
+/// y = f(w), w = a + T b, of a line that is known best at T: its factor says u(w) = 1, and its covariance, in which T² + 1 is
+/// rounded, does not.
+class OfALineFarAway final : public MeasurementModel {
+public:
+    OfALineFarAway(double w, double (*f)(double), double (*slope)(double)) : f_(f), slope_(slope) {
+        InputGroup line;
+        line.name = "line";
+        line.unit = "1";
+        line.value = Eigen::Vector2d(0.0, w);
+        line.factor = Eigen::Matrix2d{{1.0, 0.0}, {-k_far, 1.0}};
+        line.covariance = line.factor * line.factor.transpose();
+        inputs_ = {line};
+    }
+    const std::vector<InputGroup>& inputs() const override { return inputs_; }
+    const std::vector<OutputQuantity>& outputs() const override { return outputs_; }
+    Eigen::VectorXd evaluate(const Eigen::VectorXd& x) const override {
+        return Eigen::VectorXd::Constant(1, f_(x(1) + k_far * x(0)));
+    }
+    Eigen::MatrixXd jacobian(const Eigen::VectorXd& x) const override {
+        return slope_(x(1) + k_far * x(0)) * Eigen::RowVector2d(k_far, 1.0);
+    }
+
+private:
+    static constexpr double k_far = 1048576.0;  // 2^20
+    double (*f_)(double);
+    double (*slope_)(double);
+    std::vector<InputGroup> inputs_;
+    std::vector<OutputQuantity> outputs_{{"y", "1"}};
+};
+
+TEST(LinearityCheck, ProbesAlongAFactorThatIsKnown) {
+    const auto checked = [](double w, double (*f)(double), double (*slope)(double)) {
+        const OfALineFarAway model(w, f, slope);
+        return check_linearity(model, propagate(model, 0.9545), {}).at(0);
+    };
+    const auto square = [](double w) { return w * w; };
+    const auto twice = [](double w) { return 2.0 * w; };
+    EXPECT_TRUE(checked(
+                    3.0, [](double w) { return 5.0 * w; }, [](double) { return 5.0; })
+                    .adequate);
+    EXPECT_TRUE(checked(1000.0, square, twice).adequate) << "u/w = 0.1 %";
+    const LinearityCheck bent = checked(3.0, square, twice);
+    EXPECT_FALSE(bent.adequate);
+    // At w ± k u the square differs from its tangent by (k u)².
+    EXPECT_NEAR(bent.end_deviation, 4.0, 0.01) << "k = 2.000";
+}
+
+TEST(LinearSkewness, IsNoneWithoutUncertaintyOrWeight) {
+    const Distribution skewed{.kind = DistributionKind::exponential, .location = 0.0, .scale = 1.0};
+    const auto skewness_of = [](const std::string& expression, const std::vector<InputGroup>& inputs) {
+        const Model model(expression, inputs);
+        return linear_skewness(model, propagate(model, 0.9545), 0);
+    };
+    EXPECT_EQ(skewness_of("0*a", {input("a", 1.0, 1.0, skewed)}), 0.0);
+    // γ(y) = Σ (c u/u(y))³ γ_i with γ = 2 of the exponential one: a + 2 b, b of no weight in the skewness but in u.
+    EXPECT_NEAR(skewness_of("a + 2*b + 0*c",
+                            {input("a", 1.0, 1.0, skewed), input("b", 0.0, 1.0), input("c", 1.0, 1.0, skewed)}),
+                2.0 / (5.0 * std::sqrt(5.0)), 1e-12);
 }
 
 }  // namespace

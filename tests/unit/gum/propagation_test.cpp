@@ -7,11 +7,15 @@
 #include <functional>
 #include <limits>
 #include <random>
+#include <stdexcept>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "gum/coverage.h"
 #include "gum/quantity/diagnostic.h"
+#include "gum/quantity/distribution.h"
+#include "gum/quantity/distribution_shape.h"
 #include "gum/quantity/special_values.h"
 #include "gum/type_b.h"
 #include "tests/unit/gum/printed.h"
@@ -598,6 +602,172 @@ TEST(DegreesOfFreedom, OfSeveralOutputsTogether) {
     EXPECT_TRUE(agrees(joint_effective_degrees_of_freedom(two, propagate(two, 0.95)), 14.0, 1e-13));
     const FunctionModel known = linear_model(Eigen::Matrix2d::Identity(), {group("x", Eigen::Vector2d::Zero(), V)});
     EXPECT_EQ(joint_effective_degrees_of_freedom(known, propagate(known, 0.95)), k_infinity);
+}
+
+// --- a covariance whose factor is known ---------------------------------------------------------------------------
+
+constexpr double k_far = 1073741824.0;  // 2^30: products and sums below are exact
+
+/// Slope b and value a at 0 of a line that is known best far away: L = [[1, 0], [−T, 1]]. What it says at T, a + T b, has
+/// u = 1; T² + 1, the variance of a, has lost it.
+InputGroup line_known_far_away(double nu = k_infinity) {
+    Eigen::MatrixXd L(2, 2);
+    L << 1.0, 0.0, -k_far, 1.0;
+    InputGroup line = group("line", Eigen::Vector2d(0.0, 3.0), L * L.transpose(), nu);
+    line.factor = L;
+    return line;
+}
+
+TEST(PropagationFactor, KeepsTheUncertaintyThatTheCovarianceHasLost) {
+    Eigen::MatrixXd A(3, 2);
+    A << k_far, 1.0, 0.5 * k_far, 1.0, 0.0, 1.0;
+    const Propagation result = propagate(linear_model(A, {line_known_far_away()}), 0.95);
+    EXPECT_EQ(result.standard_uncertainty(0), 1.0);
+    EXPECT_TRUE(agrees(result.standard_uncertainty(1), std::hypot(0.5 * k_far, 1.0), 1e-15));
+    EXPECT_TRUE(agrees(result.covariance(0, 1), 1.0, 1e-12)) << "(0, 1) · (−T/2, 1)";
+    InputGroup by_covariance = line_known_far_away();
+    by_covariance.factor = {};
+    EXPECT_NE(propagate(linear_model(A, {by_covariance}), 0.95).standard_uncertainty(0), 1.0);
+}
+
+TEST(PropagationFactor, GivesTheDegreesOfFreedomOfAllOutputs) {
+    Eigen::MatrixXd A(2, 2);
+    A << k_far, 1.0, 0.5 * k_far, 1.0;
+    const FunctionModel one = linear_model(A, {line_known_far_away(7.0)});
+    EXPECT_TRUE(agrees(joint_effective_degrees_of_freedom(one, propagate(one, 0.95)), 7.0, 1e-12));
+}
+
+TEST(PropagationFactor, IsTakenToSecondOrder) {
+    // y = w² with w = a + T b = 3 and u(w) = 1: u² = (2 w)² + ½ (2·1)² (JCGM 100:2008, 5.1.2, note), shift 1.
+    FunctionModel model = linear_model(Eigen::MatrixXd::Ones(1, 2), {line_known_far_away(), single("c", 0.0, 0.0)});
+    const auto w = [](const Eigen::VectorXd& x) { return x(1) + k_far * x(0); };
+    const Eigen::Vector3d slope(k_far, 1.0, 0.0);
+    model.function = [=](const Eigen::VectorXd& x) { return Eigen::VectorXd::Constant(1, w(x) * w(x)); };
+    model.derivative = [=](const Eigen::VectorXd& x) -> Eigen::MatrixXd { return 2.0 * w(x) * slope.transpose(); };
+    model.second_derivative = [=](const Eigen::VectorXd&) {
+        return std::vector<Eigen::MatrixXd>{2.0 * slope * slope.transpose()};
+    };
+    const auto result = propagate_to_second_order(model, propagate(model, 0.95));
+    ASSERT_TRUE(result);
+    EXPECT_TRUE(agrees(result->standard_uncertainty(0), std::sqrt(38.0), 1e-12));
+    EXPECT_TRUE(agrees(result->shift(0), 1.0, 1e-12));
+}
+
+TEST(PropagationFactor, HasTheSizeOfItsGroupAndIsLowerTriangular) {
+    for (const Eigen::MatrixXd& wrong :
+         {Eigen::MatrixXd(Eigen::MatrixXd::Ones(2, 2)), Eigen::MatrixXd(Eigen::MatrixXd::Identity(3, 2)),
+          Eigen::MatrixXd(Eigen::MatrixXd::Identity(2, 3))}) {
+        InputGroup line = line_known_far_away();
+        line.factor = wrong;
+        EXPECT_THROW((void)propagate(linear_model(Eigen::MatrixXd::Ones(1, 2), {line}), 0.95), std::logic_error);
+    }
+    InputGroup known = group("x", Eigen::Vector2d::Zero(), Eigen::Matrix2d::Zero());
+    known.factor = Eigen::Matrix2d::Zero();
+    EXPECT_EQ(propagate(linear_model(Eigen::MatrixXd::Ones(1, 2), {known}), 0.95).standard_uncertainty(0), 0.0);
+}
+
+// --- second order of inputs that are not normal ---------------------------------------------------------------------
+
+/// y = f(x) of one input with f′ and f″.
+FunctionModel curve(const Distribution& x, double u, const std::function<double(double)>& f,
+                    const std::function<double(double)>& slope, const std::function<double(double)>& bend) {
+    FunctionModel model = linear_model(Eigen::MatrixXd::Ones(1, 1), {single("x", expectation(x), u)});
+    model.groups.front().marginals = {x};
+    model.function = [=](const Eigen::VectorXd& at) { return Eigen::VectorXd::Constant(1, f(at(0))); };
+    model.derivative = [=](const Eigen::VectorXd& at) { return Eigen::MatrixXd::Constant(1, 1, slope(at(0))); };
+    model.second_derivative = [=](const Eigen::VectorXd& at) {
+        return std::vector<Eigen::MatrixXd>{Eigen::MatrixXd::Constant(1, 1, bend(at(0)))};
+    };
+    return model;
+}
+
+TEST(SecondOrder, TakesTheMomentsOfInputsThatAreNotNormal) {
+    const auto u_of = [](const FunctionModel& model) {
+        const auto result = propagate_to_second_order(model, propagate(model, 0.95));
+        return result ? result->standard_uncertainty(0) : -1.0;
+    };
+    const auto square = [](double x) { return x * x; };
+    const auto twice = [](double x) { return 2.0 * x; };
+    const auto two = [](double) { return 2.0; };
+    // Variances of x²: E x⁴ − (E x²)². Uniform on −1 … 1: 1/5 − 1/9. Exponential: 4! − 2!².
+    const Distribution uniform = Distribution::uniform(0.0, 1.0);
+    const double u = 1.0 / std::sqrt(3.0);
+    EXPECT_TRUE(agrees(u_of(curve(uniform, u, square, twice, two)), std::sqrt(4.0 / 45.0), 1e-12));
+    const Distribution exponential{.kind = DistributionKind::exponential, .location = 0.0, .scale = 1.0};
+    EXPECT_TRUE(agrees(u_of(curve(exponential, 1.0, square, twice, two)), std::sqrt(20.0), 1e-12));
+    // x + x³ at 0, uniform: to the fourth order u² + 2 E x⁴ = 1/3 + 2/5.
+    EXPECT_TRUE(agrees(u_of(curve(
+                           uniform, u, [](double x) { return x + x * x * x; },
+                           [](double x) { return 1.0 + 3.0 * x * x; }, [](double x) { return 6.0 * x; })),
+                       std::sqrt(1.0 / 3.0 + 2.0 / 5.0), 1e-9));
+    // A t counts as normal with its u, also where it has no kurtosis: ½ (2 u²)² of x² at 0.
+    EXPECT_TRUE(agrees(u_of(curve(Distribution::student_t(0.0, 1.0, 3.0), 0.7, square, twice, two)),
+                       std::sqrt(2.0) * 0.49, 1e-12));
+    // A step that leaves the domain of the model says nothing: as of a normal input.
+    const auto root = [&](const Distribution& x) {
+        return u_of(curve(
+            x, 0.1, [](double at) { return std::sqrt(at); }, [](double at) { return 0.5 / std::sqrt(at); },
+            [](double at) { return -0.25 / (at * std::sqrt(at)); }));
+    };
+    EXPECT_EQ(root(Distribution::uniform(0.01, std::sqrt(0.03))), root(Distribution::normal(0.01, 0.1)));
+}
+
+TEST(SecondOrder, IsNoneWhereItLeavesTheRangeOfNumbers) {
+    const FunctionModel model = curve(
+        Distribution::normal(0.0, 1.0), 1.0, [](double x) { return x; }, [](double) { return 1.0; },
+        [](double) { return 1e200; });
+    EXPECT_FALSE(propagate_to_second_order(model, propagate(model, 0.95)));
+}
+
+TEST(PropagationInput, NamesUpToSixQuantitiesThatContradictEachOther) {
+    // Eight quantities with r = −0.5 in pairs: the smallest eigenvalue is 1 − 7·0.5, of all alike.
+    Eigen::MatrixXd V = Eigen::MatrixXd::Constant(8, 8, -0.5);
+    V.diagonal().setOnes();
+    std::string message = message_of<InputError>([&] {
+        (void)propagate(linear_model(Eigen::MatrixXd::Ones(1, 8), {group("all", Eigen::VectorXd::Zero(8), V)}), 0.95);
+    });
+    EXPECT_NE(message.find("caused by quantity 1, quantity 2, quantity 3, quantity 4, quantity "
+                           "5, quantity 6 —"),
+              std::string::npos)
+        << message;
+    // Three of five that contradict each other.
+    V = Eigen::MatrixXd::Identity(5, 5);
+    for (const auto& [i, j] : {std::pair{1, 2}, std::pair{1, 4}, std::pair{2, 4}}) {
+        V(i, j) = V(j, i) = -0.9;
+    }
+    message = message_of<InputError>([&] {
+        (void)propagate(linear_model(Eigen::MatrixXd::Ones(1, 5), {group("some", Eigen::VectorXd::Zero(5), V)}), 0.95);
+    });
+    EXPECT_NE(message.find("caused by quantity 2, quantity 3, quantity 5 —"), std::string::npos) << message;
+}
+
+TEST(PropagationInput, SaysWhichSensitivityIsNotFinite) {
+    FunctionModel model =
+        linear_model(Eigen::MatrixXd::Ones(2, 3),
+                     {single("x", 0.0, 1.0), group("pair", Eigen::Vector2d::Zero(), Eigen::Matrix2d::Identity())});
+    model.derivative = [](const Eigen::VectorXd&) {
+        Eigen::MatrixXd c = Eigen::MatrixXd::Ones(2, 3);
+        c(1, 2) = std::nan("");
+        return c;
+    };
+    EXPECT_EQ(message_of<NoResultError>([&] { (void)propagate(model, 0.95); }).substr(0, 88),
+              "output 'y2' — the sensitivity coefficient for quantity 2 of input group 'pair' is NaN ");
+    for (const auto& [rows, columns] : {std::pair{1, 3}, std::pair{2, 2}}) {
+        model.derivative = [rows = rows, columns = columns](const Eigen::VectorXd&) -> Eigen::MatrixXd {
+            return Eigen::MatrixXd::Ones(rows, columns);
+        };
+        EXPECT_THROW((void)propagate(model, 0.95), std::logic_error);
+    }
+}
+
+TEST(DegreesOfFreedom, OfOutputsAmongWhichSomeHaveNoUncertainty) {
+    // An output without uncertainty in a unit of its own, a diagonal group, and one that contributes to nothing.
+    Eigen::MatrixXd A(2, 4);
+    A << 1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0;
+    FunctionModel model = linear_model(A, {group("diagonal", Eigen::Vector2d::Zero(), Eigen::Vector2d(1.0, 4.0), 9.0),
+                                           group("idle", Eigen::Vector2d::Zero(), Eigen::Matrix2d::Identity(), 3.0)});
+    model.quantities[1].unit = "s";
+    EXPECT_TRUE(agrees(joint_effective_degrees_of_freedom(model, propagate(model, 0.95)), 9.0, 1e-13));
 }
 
 }  // namespace

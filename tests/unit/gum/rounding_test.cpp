@@ -294,5 +294,31 @@ TEST(RoundInOrder, KeepsTheOrderOfANumberAndItsLimits) {
     EXPECT_THAT(round_in_order({10.04, 3.0, 10.0}, 1, &round_to_quantum), ElementsAre("10.04", "3.00", "10.00"));
 }
 
+// A number that a computation has cost some digits is the decimal number within what was lost, where there is one with all but two of the
+// digits that stand: half of 0.3 − 0.1 is 0.1.
+TEST(SettledDecimal, IsTheOneWithinWhatWasLost) {
+    EXPECT_EQ(settled_decimal(0.1 + 0.2, 1e-16), 0.3);
+    EXPECT_EQ(settled_decimal(0.09999999999999998, 1e-16), 0.1);
+    EXPECT_EQ(settled_decimal(-0.09999999999999998, 1e-16), -0.1);
+    EXPECT_EQ(settled_decimal(0.10000000003, 1e-16), 0.10000000003) << "no decimal number is so near";
+    EXPECT_EQ(settled_decimal(0.12345678901234567, 1e-17), 0.12345678901234567) << "nor here";
+    EXPECT_EQ(settled_decimal(0.5, 1e-16), 0.5) << "it has no digit below";
+    EXPECT_EQ(settled_decimal(12.0, 1e-3), 12.0);
+    constexpr double k_inf = std::numeric_limits<double>::infinity();
+    for (const double lost : {0.0, -1.0, k_inf, std::nan("")}) {
+        EXPECT_EQ(settled_decimal(0.1 + 0.2, lost), 0.1 + 0.2) << lost;
+    }
+    EXPECT_EQ(settled_decimal(0.0, 1.0), 0.0);
+    EXPECT_EQ(settled_decimal(k_inf, 1.0), k_inf);
+    EXPECT_TRUE(std::isnan(settled_decimal(std::nan(""), 1.0)));
+}
+
+TEST(RoundToQuantum, HasBoundsOfItsDecimals) {
+    EXPECT_EQ(message_of<InputError>([] { (void)round_to_quantum(1.0, -301); }),
+              "number of decimals — -301 — must be -300 to 400 — Correct the number of decimals.");
+    EXPECT_EQ(code_of<InputError>([] { (void)round_to_quantum(1.0, 401); }), "GC-GUM-0041");
+    EXPECT_EQ(round_to_quantum(1.0, -300), "0E+300");
+}
+
 }  // namespace
 }  // namespace gumcert::gum

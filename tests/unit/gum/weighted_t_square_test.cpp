@@ -201,5 +201,33 @@ TEST(SquaredT, Refusals) {
               "GC-GUM-0005");
 }
 
+TEST(CommonT, HasNothingBelow0) {
+    const std::vector<double> weights{1.0, 2.0};
+    for (const double nu : {3.0, 1e7, k_infinite}) {
+        for (const double x : {0.0, -1.0}) {
+            EXPECT_EQ(common_t_lower_tail(weights, nu, x), 0.0) << nu;
+            EXPECT_EQ(common_t_upper_tail(weights, nu, x), 1.0) << nu;
+        }
+    }
+    EXPECT_EQ(common_t_lower_tail(weights, 1e12, 2.5), weighted_chi_square_lower_tail(weights, 2.5));
+}
+
+// More weights in one place than nodes stand for them, so near to each other that their logarithms are equal.
+TEST(SquaredT, WeightsThatDifferInTheirLastBitsAreEqual) {
+    std::vector<SquaredT> equal{{1.0, 5.0}};
+    std::vector<SquaredT> nearly = equal;
+    double weight = 1e-13;
+    for (int i = 0; i < 30; ++i) {
+        equal.push_back({1e-13, 5.0});
+        nearly.push_back({weight, 5.0});
+        weight = std::nextafter(weight, 1.0);
+    }
+    for (const double x : {1e-3, 0.5, 4.0}) {
+        EXPECT_NEAR(squared_t_lower_tail(nearly, x), squared_t_lower_tail(equal, x), 1e-12) << x;
+        EXPECT_NEAR(squared_t_lower_tail(nearly, x), squared_t_lower_tail(std::vector<SquaredT>{{1.0, 5.0}}, x), 1e-8)
+            << x;
+    }
+}
+
 }  // namespace
 }  // namespace gumcert::gum

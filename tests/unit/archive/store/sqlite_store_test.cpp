@@ -9,7 +9,9 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <iterator>
 #include <optional>
+#include <string>
 
 #include "encoding/sha2.h"
 #include "tests/support/archive_folder.h"
@@ -222,6 +224,38 @@ TEST(SqliteStore, NamesTheFileThatBarsWriting) {
         }
         return false;
     }));
+}
+
+std::string bytes_of(const std::filesystem::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// SQLite would put the pages of the former archive into the backup that was copied to its place.
+TEST(SqliteStore, TakesNoLogOfTheArchiveThatStoodThere) {
+    const StoreFolder folder;
+    const LogEntry first = next_entry();
+    (void)create_sqlite_store(folder.file(), first);
+    const auto former = open_sqlite_store(folder.file(), Access::read_and_write);
+    const std::filesystem::path restored = folder.file("restored.archive");
+    const std::filesystem::path log = folder.file("restored.archive-wal");
+    former->copy_to(restored);
+    former->write([&] { former->append(next_entry(&first)); });
+    std::filesystem::copy_file(folder.file("a.archive-wal"), log);
+    const std::string archive_before = bytes_of(restored), log_before = bytes_of(log);
+    ASSERT_FALSE(log_before.empty());
+    for (const Access access : {Access::read_only, Access::read_and_write}) {
+        EXPECT_EQ(code_of([&] { (void)open_sqlite_store(restored, access); }), "GC-ARCHIVE-0015");
+    }
+    EXPECT_EQ(bytes_of(restored), archive_before);
+    EXPECT_EQ(bytes_of(log), log_before);
+
+    std::filesystem::remove(log);
+    const auto store = open_sqlite_store(restored, Access::read_and_write);
+    const LogEntry second = next_entry(&first);
+    store->write([&] { store->append(second); });
+    // Its own log, beside which others open it.
+    EXPECT_EQ(open_sqlite_store(restored, Access::read_only)->last_entry(), second);
 }
 
 TEST(SqliteStore, LeavesNothingBehindWhenItWasRead) {

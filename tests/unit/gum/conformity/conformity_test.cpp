@@ -133,7 +133,11 @@ TEST(DecisionRuleId, ThereAndBack) {
     for (const char* text : {"", "DR-00", "DR-14", "DR-1", "dr-01", "DR-01 ", "1"}) {
         EXPECT_FALSE(decision_rule_from_id(text)) << text;
     }
+    EXPECT_EQ(verdict_name(pass), "pass");
+    EXPECT_EQ(verdict_name(fail), "fail");
+    EXPECT_EQ(verdict_name(conditional_pass), "conditional_pass");
     EXPECT_EQ(verdict_name(conditional_fail), "conditional_fail");
+    EXPECT_EQ(verdict_name(undetermined), "undetermined");
     EXPECT_EQ(verdict_name(not_applicable), "not_applicable");
 }
 

@@ -47,5 +47,15 @@ TEST(DecisionRuleTable, TakesAProbabilityForWhatTheRuleMeansByIt) {
                 ElementsAre("probability is 0.05; it must be the probability to prove, above 0.5 and below 1."));
 }
 
+TEST(DecisionRuleTable, SaysWhichRulesHoldAProbabilityAgainstALimit) {
+    EXPECT_TRUE(decides_by_probability(DecisionRule::specific_risk, {}));
+    EXPECT_TRUE(decides_by_probability(DecisionRule::iso_14253_1, {}));
+    EXPECT_FALSE(decides_by_probability(DecisionRule::iso_14253_1, {.guard_factor = 1.0})) << "by U";
+    EXPECT_TRUE(decides_by_probability(DecisionRule::z540_3, {.method = "4"}));
+    EXPECT_FALSE(decides_by_probability(DecisionRule::z540_3, {.method = "6"}));
+    EXPECT_FALSE(decides_by_probability(DecisionRule::guard_band_factor, {.method = "4"}));
+    EXPECT_FALSE(decides_by_probability(DecisionRule::agreed, {}));
+}
+
 }  // namespace
 }  // namespace gumcert::gum

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace gumcert::gum {
@@ -72,6 +73,24 @@ TEST(Support, HoldsAllValues) {
     EXPECT_TRUE(std::isinf(support(of(DistributionKind::normal)).low));
     EXPECT_EQ(support(of(DistributionKind::beta, 2.0, 3.0)).high, 7.0);
     EXPECT_EQ(support(empirical([](double p) { return p; })).low, 0.5 / 200'000);
+}
+
+TEST(DistributionShape, OfSamples) {
+    const auto samples_of = [](std::vector<double> values) {
+        return Distribution{.kind = DistributionKind::empirical,
+                            .location = 1.0,
+                            .scale = 10.0,
+                            .samples = std::make_shared<const std::vector<double>>(std::move(values))};
+    };
+    // 0, 0, 0, 4 about 1: second moment 3, third (3·(−1) + 27)/4 = 6, fourth (3 + 81)/4 = 21.
+    EXPECT_NEAR(skewness(samples_of({0.0, 0.0, 0.0, 4.0})), 6.0 / (3.0 * std::sqrt(3.0)), 1e-14);
+    EXPECT_NEAR(kurtosis(samples_of({0.0, 0.0, 0.0, 4.0})), 21.0 / 9.0, 1e-14);
+    EXPECT_EQ(skewness(samples_of({2.0, 2.0})), 0.0) << "they do not differ";
+    EXPECT_EQ(kurtosis(samples_of({2.0, 2.0})), 3.0);
+    EXPECT_EQ(support(samples_of({1.0, 2.0, 5.0})).low, 11.0);
+    EXPECT_EQ(support(samples_of({1.0, 2.0, 5.0})).high, 51.0);
+    EXPECT_EQ(support(samples_of({})).low, 1.0);
+    EXPECT_EQ(support(samples_of({})).high, 1.0);
 }
 
 }  // namespace

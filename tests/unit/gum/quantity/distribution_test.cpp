@@ -6,6 +6,7 @@
 #include <limits>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace gumcert::gum {
@@ -98,6 +99,35 @@ TEST(Distribution, SymmetryAndLimits) {
     EXPECT_TRUE(is_bounded(Distribution::uniform(0.0, 1.0)));
     EXPECT_FALSE(is_bounded(Distribution::normal(0.0, 1.0)));
     EXPECT_EQ(distribution_name(DistributionKind::curvilinear_trapezoid), "curvilinear_trapezoid");
+}
+
+TEST(Distribution, HasANameOfItsOwn) {
+    using enum DistributionKind;
+    const std::vector<DistributionKind> kinds{
+        constant,  normal, uniform,     triangular, arcsine, trapezoidal, curvilinear_trapezoid,
+        student_t, gamma,  exponential, lognormal,  beta,    empirical};
+    const std::vector<std::string> names{
+        "constant",  "normal", "uniform",     "triangular", "arcsine", "trapezoidal", "curvilinear_trapezoid",
+        "student_t", "gamma",  "exponential", "lognormal",  "beta",    "empirical"};
+    for (std::size_t i = 0; i < kinds.size(); ++i) {
+        EXPECT_EQ(distribution_name(kinds[i]), names[i]);
+    }
+}
+
+TEST(Distribution, MomentsOfSamples) {
+    // 1, 2, 2, 5: mean 2.5, variance with 1/n (2.25 + 0.25 + 0.25 + 6.25)/4.
+    const auto samples_of = [](std::vector<double> values) {
+        return Distribution{.kind = DistributionKind::empirical,
+                            .location = 1.0,
+                            .scale = 10.0,
+                            .samples = std::make_shared<const std::vector<double>>(std::move(values))};
+    };
+    EXPECT_DOUBLE_EQ(expectation(samples_of({1.0, 2.0, 2.0, 5.0})), 26.0);
+    EXPECT_DOUBLE_EQ(standard_deviation(samples_of({1.0, 2.0, 2.0, 5.0})), 15.0);
+    EXPECT_EQ(standard_deviation(samples_of({3.0, 3.0})), 0.0);
+    EXPECT_EQ(expectation(samples_of({})), 1.0) << "none: refused where it is used";
+    EXPECT_EQ(standard_deviation({.kind = DistributionKind::empirical, .scale = 10.0}), 0.0);
+    EXPECT_EQ(standard_deviation(Distribution::constant(3.0)), 0.0);
 }
 
 }  // namespace
