@@ -22,7 +22,8 @@ from pdf_layout import layout_breaches
 SOURCE = Path(__file__).resolve().parents[2]
 LANGUAGES = ("en", "de", "es", "zh-Hant")
 FEW = (("everyday/torque_wrench/job.json", ("es",)), ("everyday/mass_set/job.json", ("de",)),
-       ("thermometer/job.json", ("zh-Hant",)), ("comparison/methods.json", ("en",)))
+       ("thermometer/job.json", ("zh-Hant",)), ("comparison/methods.json", ("en",)),
+       ("everyday/multimeter/job.json", ("en",)))
 ALL = tuple((job, LANGUAGES) for job in (
     "certificate/end_gauge.json", "certificate/rotary_table.json", "circle_closure/comparison.json",
     "circle_closure/indexing_tables.json", "circle_closure/job.json", "comparison/key_comparison.json",
@@ -132,6 +133,7 @@ def table_at_the_end(points: int) -> dict:
 # Parts of words, with a soft hyphen, that stood in budgets beside empty room: their heads and distributions stay whole. Before
 # the gap of a column only, for a sentence may break there.
 BROKEN = re.compile("(?:Sensitivity coeffi|Distribu|Coeficiente de sensibi|convolu|Rechteck|Normalver|t-Vertei)\u00ad {2}")
+VALUE_WITHOUT_UNIT = re.compile(r"[0-9]+ *\n *(?:[kM]?Ω|[mµ]?V)\b")
 
 LONG = (64, 66, 68, 70)
 # Columns side by side: 12, 15 and 18.
@@ -150,7 +152,8 @@ def planted_problems(folder: Path) -> list[str]:
 
 def broken_words(file: Path) -> list[str]:
     text = subprocess.run(["pdftotext", "-layout", str(file), "-"], capture_output=True, text=True, check=True).stdout
-    return [f"a word of a budget is broken: {line.strip()}" for line in text.splitlines() if BROKEN.search(line)]
+    return [f"a word of a budget is broken: {line.strip()}" for line in text.splitlines() if BROKEN.search(line)] + [
+        f"a value and its unit stand in two lines: {found.group().split()}" for found in VALUE_WITHOUT_UNIT.finditer(text)]
 
 
 def made_up_problems(program: str, name: str, job: dict, languages: tuple[str, ...]) -> list[str]:
