@@ -133,7 +133,7 @@ def table_at_the_end(points: int) -> dict:
 # Parts of words, with a soft hyphen, that stood in budgets beside empty room: their heads and distributions stay whole. Before
 # the gap of a column only, for a sentence may break there.
 BROKEN = re.compile("(?:Sensitivity coeffi|Distribu|Coeficiente de sensibi|convolu|Rechteck|Normalver|t-Vertei)\u00ad {2}")
-VALUE_WITHOUT_UNIT = re.compile(r"[0-9]+ *\n *(?:[kM]?Ω|[mµ]?V)\b")
+VALUE_WITHOUT_UNIT = re.compile(r"[0-9]+ *\n *(?:[kM]Ω|[mµ]V)\b")  # V alone is a quantity of a budget, too
 
 LONG = (64, 66, 68, 70)
 # Columns side by side: 12, 15 and 18.
