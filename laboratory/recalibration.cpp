@@ -6,7 +6,6 @@
 #include "certificate/dates.h"
 #include "certificate/statement_of_uncertainty.h"
 #include "gum/quantity/decimal_rounding.h"
-#include "gum/quantity/diagnostic.h"
 #include "gum/quantity/unit.h"
 #include "gum/rounding.h"
 #include "laboratory/standard_value.h"
@@ -18,23 +17,6 @@ namespace {
 
 constexpr int k_most_digits = 15;
 constexpr double k_well_within = 0.8;  // of the largest permissible error (ILAC-G24:2022 / OIML D 10:2022, 6.2)
-
-double limit_in(const IntervalPlan& plan, const StandardRecord& record, const CalibrationResult& result) {
-    if (plan.unit == result.unit) {
-        return plan.limit;
-    }
-    const gum::Unit stated = gum::Unit::parse(plan.unit);
-    const gum::Unit unit = gum::Unit::parse(result.unit);
-    if (!(stated.dimension() == unit.dimension())) {
-        throw gum::InputError(
-            gum::Diagnostic{.code = "GC-LAB-0013",
-                            .where = "standard \"" + record.id + "\"",
-                            .what = "a limit in \"" + plan.unit + "\" of a value in \"" + result.unit + "\"",
-                            .rule = "the limit of an interval is one of the value",
-                            .action = "correct the unit"});
-    }
-    return unit.difference_from_si(stated.difference_to_si(plan.limit));
-}
 
 Recalibration after(const Calibration& last, long days, std::string because) {
     return {days_after(last.calibrated, days), days, std::move(because)};
@@ -112,7 +94,7 @@ std::optional<Recalibration> next_calibration(const StandardRecord& record, cons
                               : Recalibration{"", 0, "in-use time: " + used};
     }
     IntervalPlan in_unit = plan;
-    in_unit.limit = limit_in(plan, record, result);
+    in_unit.limit = change_in_unit_of(record, result, {plan.limit, plan.unit, "limit"});
     in_unit.unit = result.unit;
     const std::vector<SeriesPoint> series = history_of(record, last, result);
     if (plan.method == IntervalMethod::control_chart) {

@@ -188,11 +188,11 @@ std::string lines_there_are(const Calibration* calibration) {
 
 /// What a relative limit is a share of, in the unit of the value: the nominal value. The value itself may be an error or a
 /// correction, of which a share would be next to nothing.
-double magnitude_of(const StandardRecord& record, const CalibrationResult& result) {
+double magnitude_of(const StandardRecord& record, const CalibrationResult& result, const StatedChange& change) {
     const auto refuse = [&](const std::string& of) {
-        refuse_use("GC-LAB-0013", record, "a drift in \"" + record.drift.unit + "\" of " + of,
-                   "a relative drift is a share of the nominal value of a line, in a unit of its value",
-                   "state the nominal value, or the drift in the unit of the value");
+        refuse_use("GC-LAB-0013", record, "a " + change.called + " in \"" + change.unit + "\" of " + of,
+                   "a relative drift or limit is a share of the nominal value of a line, in a unit of its value",
+                   "state the nominal value, or the " + change.called + " in the unit of the value");
     };
     const gum::Unit unit = gum::Unit::parse(result.unit);
     const gum::Unit of_nominal = gum::Unit::parse(nominal_unit_of(result));
@@ -242,30 +242,32 @@ std::vector<SeriesPoint> history_of(const StandardRecord& record, const Calibrat
     return series;
 }
 
+double change_in_unit_of(const StandardRecord& record, const CalibrationResult& result, const StatedChange& change) {
+    if (change.unit == result.unit) {
+        return change.size;
+    }
+    const gum::Unit stated = gum::Unit::parse(change.unit);
+    const gum::Unit unit = gum::Unit::parse(result.unit);
+    const double size = stated.difference_to_si(change.size);
+    if (stated.dimension() == unit.dimension()) {
+        return unit.difference_from_si(size);
+    }
+    if (!stated.dimension().is_one()) {
+        refuse_use("GC-LAB-0013", record,
+                   "a " + change.called + " in \"" + change.unit + "\" of a value in \"" + result.unit + "\"",
+                   "a drift or limit is a difference of values, or a share of the nominal value",
+                   "state it in the unit of the value, or in percent or ppm of its nominal value");
+    }
+    return size * magnitude_of(record, result, change);
+}
+
 Drift drift_of(const StandardRecord& record, const Calibration& last, const CalibrationResult& result, double days) {
     const DriftModel& model = record.drift;
     switch (model.kind) {
         case DriftKind::none:
             return {};
-        case DriftKind::limit_per_year: {
-            double limit = model.limit;
-            if (model.unit != result.unit) {
-                const gum::Unit stated = gum::Unit::parse(model.unit);
-                const gum::Unit unit = gum::Unit::parse(result.unit);
-                limit = stated.difference_to_si(limit);
-                if (stated.dimension() == unit.dimension()) {
-                    limit = unit.difference_from_si(limit);
-                } else if (stated.dimension().is_one()) {
-                    limit *= magnitude_of(record, result);
-                } else {
-                    refuse_use("GC-LAB-0013", record,
-                               "a drift in \"" + model.unit + "\" of a value in \"" + result.unit + "\"",
-                               "a drift is a difference of values, or a share of the value",
-                               "state it in the unit of the value, or in percent or ppm of it");
-                }
-            }
-            return drift_within_limit(limit, days);
-        }
+        case DriftKind::limit_per_year:
+            return drift_within_limit(change_in_unit_of(record, result, {model.limit, model.unit, "drift"}), days);
         case DriftKind::linear:
             return linear_drift(history_of(record, last, result), model.weighted, days);
         case DriftKind::last_difference:

@@ -29,6 +29,19 @@ struct StandardValue {
 [[nodiscard]] std::vector<SeriesPoint> history_of(const StandardRecord& record, const Calibration& last,
                                                   const CalibrationResult& result);
 
+/// A largest change of a value: in its unit, or relative, as a share of its nominal value.
+struct StatedChange {
+    double size = 0.0;
+    std::string unit;
+    std::string called;  ///< in messages: drift, limit
+};
+
+/// The change in the unit of the line.
+/// \throws gum::InputError  GC-LAB-0013 if it is neither in a unit of the value nor relative, or is relative and the line has no
+///                          nominal value, one of 0, or a temperature
+[[nodiscard]] double change_in_unit_of(const StandardRecord& record, const CalibrationResult& result,
+                                       const StatedChange& change);
+
 /// Drift of one line by the model of the record.
 /// \param days  since `last`, at least 0
 /// \throws gum::InputError  GC-LAB-0011, -0012, -0013

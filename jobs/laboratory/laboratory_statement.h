@@ -157,7 +157,8 @@ void describe(Archive& a, laboratory::IntervalPlan& r) {
     constexpr Whole k_days{{.low = 1.0, .high = 36'600.0}};
     a.needed("method", r.method, k_methods, "Of ILAC-G24:2022 / OIML D 10:2022, clause 6.");
     a("limit", r.limit, In{above_zero("")},
-      "staircase: largest permissible error; control_chart: largest change that is allowed.");
+      "staircase: largest permissible error; control_chart: largest change that is allowed. In percent or ppm, of a "
+      "value that is no ratio, a share of the nominal value of each line.");
     a.by_hand("unit", k_unit_schema, "a unit", "Of limit.");
     a("present_days", r.present_days, k_days, "staircase: the interval so far.");
     a("extend_by", r.extend_by, In{{.low = 1.0, .low_open = true}},

@@ -16,11 +16,13 @@
 #include "text/numbers.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <map>
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -59,9 +61,38 @@ std::string with_unit(const std::string& number, const std::string& people) {
 }
 
 /// An equation as a job writes it, with the signs of printed mathematics: "a − b·c" for "a - b*c".
+/// Of the whole exponent of a power that begins here, "^2" or "**-1": its superscript and how many signs it has; else none, as of
+/// "^2.5" and "^2^x".
+std::pair<std::string, std::size_t> whole_exponent(std::string_view equation) {
+    static constexpr std::array<const char*, 10> k_superscripts = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+    std::size_t at = equation.starts_with('^') ? 1 : equation.starts_with("**") ? 2 : 0;
+    if (at == 0) {
+        return {};
+    }
+    std::string raised;
+    if (equation.substr(at).starts_with('-')) {
+        raised = "⁻";
+        ++at;
+    }
+    const std::size_t first = at;
+    for (; at < equation.size() && equation[at] >= '0' && equation[at] <= '9'; ++at) {
+        raised += k_superscripts.at(static_cast<std::size_t>(equation[at] - '0'));
+    }
+    const std::string_view behind = equation.substr(at);
+    const std::string_view next = behind.substr(std::min(behind.find_first_not_of(' '), behind.size()));
+    const bool ends = behind.empty() || std::string_view(" +-*/),;=<>").find(behind.front()) != std::string_view::npos;
+    const bool is_power_again = next.starts_with('^') || next.starts_with("**");
+    return at > first && ends && !is_power_again ? std::pair(raised, at) : std::pair(std::string(), std::size_t{0});
+}
+
 std::string equation_for_people(const std::string& equation) {
     std::string out;
     for (std::size_t i = 0; i < equation.size(); ++i) {
+        if (const auto [raised, signs] = whole_exponent(std::string_view(equation).substr(i)); signs > 0) {
+            out += raised;
+            i += signs - 1;
+            continue;
+        }
         const bool exponent = i > 1 && (equation[i - 1] == 'e' || equation[i - 1] == 'E') && equation[i - 2] >= '0' &&
                               equation[i - 2] <= '9';  // of a number: "1e-5"
         if (equation[i] == '*' && i + 1 < equation.size() && equation[i + 1] == '*') {

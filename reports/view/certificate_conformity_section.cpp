@@ -33,6 +33,8 @@ using certificate::CertifiedTable;
 using certificate::CertifiedValue;
 
 constexpr double k_least_ratio_of_far_limits = 1.0 - 1e-9;
+constexpr std::array<const char*, 6> k_verdicts = {"pass", "conditional_pass", "conditional_fail", "undetermined",
+                                                   "fail", "not_applicable"};
 
 /// A value with a verdict, and where it stands.
 struct Decided {
@@ -254,11 +256,85 @@ bool is_undecided(const CertifiedValue& v) {
     return v.verdict->verdict == "not_applicable";
 }
 
-/// Before what holds for some of the values: which ones.
-Text of_rows(const Text& sentence, const Certificate& certificate, const CertifiedOverview::Holds& rows,
-             const Wording& words) {
-    const Text names = enumerated(names_of_values(certificate, rows, words), words);
-    return words.filled("statement", "of_rows", {{"names", names}, {"sentence", sentence}});
+/// A sentence that holds for some of the decided values.
+struct HoldsForSome {
+    Text sentence;
+    CertifiedOverview::Holds holds;
+    std::vector<Text> names = {};  ///< of those values
+};
+
+std::vector<const CertifiedValue*> values_of(const Certificate& certificate, const CertifiedOverview::Holds& holds) {
+    std::vector<const CertifiedValue*> all;
+    for (const CertifiedTable& table : certificate.tables) {
+        for (const CertifiedColumn& column : table.columns) {
+            for (const CertifiedValue& v : column.values) {
+                if (v.verdict && holds(v)) {
+                    all.push_back(&v);
+                }
+            }
+        }
+    }
+    return all;
+}
+
+/// The verdicts of those of the values for which something holds, where it holds for all values with these verdicts: "“pass”, “fail”".
+/// Empty else.
+Text verdicts_that_tell(const std::vector<const CertifiedValue*>& values, const CertifiedOverview::Holds& holds,
+                        const Wording& words) {
+    std::vector<std::string> with, without;
+    for (const CertifiedValue* v : values) {
+        std::vector<std::string>& those = holds(*v) ? with : without;
+        if (std::find(those.begin(), those.end(), v->verdict->verdict) == those.end()) {
+            those.push_back(v->verdict->verdict);
+        }
+    }
+    const bool apart = std::none_of(with.begin(), with.end(), [&](const std::string& verdict) {
+        return std::find(without.begin(), without.end(), verdict) != without.end();
+    });
+    std::vector<Text> names;
+    for (const char* verdict : k_verdicts) {
+        if (apart && std::find(with.begin(), with.end(), verdict) != with.end()) {
+            names.push_back(words.filled("statement", "quoted_verdict", {{"verdict", words("verdict_name", verdict)}}));
+        }
+    }
+    return enumerated(names, words);
+}
+
+/// Sentences about some of the values with a verdict, each with the values that it is about: by name where they are few, else
+/// by their verdict where that tells them, for it stands beside each. The most that are left are "all other values", where
+/// every one has a sentence.
+/// \param among  the values that the sentences speak of
+void sentences_about_some(CertificateBuilder& builder, const Wording& words, const Certificate& certificate,
+                          std::vector<HoldsForSome> sentences, const CertifiedOverview::Holds& among) {
+    constexpr std::size_t k_few = 6;
+    const std::vector<const CertifiedValue*> values = values_of(certificate, among);
+    const auto write = [&](const char* key, const char* name, const Text& which, const Text& sentence) {
+        builder.paragraph(words.filled("statement", key, {{name, which}, {"sentence", sentence}}));
+    };
+    std::vector<const HoldsForSome*> long_ones;
+    for (HoldsForSome& one : sentences) {
+        one.names = names_of_values(certificate, one.holds, words);
+        const Text verdicts = one.names.size() > k_few ? verdicts_that_tell(values, one.holds, words) : Text();
+        if (!verdicts.empty()) {
+            write("of_verdicts", "verdicts", verdicts, one.sentence);
+        } else if (one.names.size() > k_few) {
+            long_ones.push_back(&one);
+        } else {
+            write("of_rows", "names", enumerated(one.names, words), one.sentence);
+        }
+    }
+    const bool all_told = std::all_of(values.begin(), values.end(), [&](const CertifiedValue* v) {
+        return std::any_of(sentences.begin(), sentences.end(), [&](const HoldsForSome& one) { return one.holds(*v); });
+    });
+    std::stable_sort(long_ones.begin(), long_ones.end(),
+                     [](const HoldsForSome* a, const HoldsForSome* b) { return a->names.size() < b->names.size(); });
+    for (const HoldsForSome* one : long_ones) {
+        if (all_told && sentences.size() > 1 && one == long_ones.back()) {
+            builder.paragraph(words.filled("statement", "of_other_values", {{"sentence", one->sentence}}));
+        } else {
+            write("of_rows", "names", enumerated(one->names, words), one->sentence);
+        }
+    }
 }
 
 /// The global probability of false acceptance, where no table of verdicts states it value by value: ANSI/NCSL Z540.3, 5.3, is
@@ -322,6 +398,8 @@ void decision_sentences(CertificateBuilder& builder, const Wording& words, const
         }
     }
     const std::string& id = all.front().value->verdict->specification;
+    const auto is_of_it = [&](const CertifiedValue& v) { return v.verdict && v.verdict->specification == id; };
+    std::vector<HoldsForSome> some;
     for (const Way& way : ways) {
         std::vector<Decided> of_it;
         std::copy_if(all.begin(), all.end(), std::back_inserter(of_it),
@@ -331,11 +409,13 @@ void decision_sentences(CertificateBuilder& builder, const Wording& words, const
         if (!way.undecided) {
             text += width_and_risks(of_it, words);
         }
-        const auto is_one = [&](const CertifiedValue& v) {
-            return v.verdict && v.verdict->specification == id && way_of(v) == way;
-        };
-        builder.paragraph(of_it.size() == all.size() ? text : of_rows(text, certificate, is_one, words));
+        if (of_it.size() == all.size()) {
+            builder.paragraph(text);
+            return;
+        }
+        some.push_back({text, [=](const CertifiedValue& v) { return is_of_it(v) && way_of(v) == way; }});
     }
+    sentences_about_some(builder, words, certificate, some, is_of_it);
 }
 
 /// Head of the places of the values: that of their table where all stand in tables of one argument.
@@ -424,10 +504,8 @@ void verdict_table(CertificateBuilder& builder, const Wording& words, const Agre
 }
 
 void verdict_meanings(CertificateBuilder& builder, const Wording& words, const std::set<std::string>& used) {
-    static constexpr std::array<const char*, 6> k_order = {
-        "pass", "conditional_pass", "conditional_fail", "undetermined", "fail", "not_applicable"};
     Facts rows;
-    for (const char* verdict : k_order) {
+    for (const char* verdict : k_verdicts) {
         if (used.contains(verdict)) {
             rows.emplace_back(words("verdict_name", verdict), words("verdict_meaning", verdict));
         }
@@ -496,10 +574,16 @@ void conformity_section(CertificateBuilder& builder, const Wording& words, const
         without();
         return;
     }
-    for (const std::string& note : notes) {
-        const auto has_it = [&](const CertifiedValue& v) { return v.verdict && v.verdict->note == note; };
-        const bool for_all = all_have_a_note && notes.size() == 1;
-        builder.paragraph(for_all ? words.sentence(note) : of_rows(words.sentence(note), certificate, has_it, words));
+    if (all_have_a_note && notes.size() == 1) {
+        builder.paragraph(words.sentence(notes.front()));
+    } else {
+        std::vector<HoldsForSome> some;
+        for (const std::string& note : notes) {
+            some.push_back({words.sentence(note),
+                            [note](const CertifiedValue& v) { return v.verdict && v.verdict->note == note; }});
+        }
+        sentences_about_some(builder, words, certificate, some,
+                             [](const CertifiedValue& v) { return v.verdict.has_value(); });
     }
     verdict_meanings(builder, words, used);
     builder.paragraph(words("statement", "conformity_points"));

@@ -420,6 +420,30 @@ std::size_t column_that_tells_rows(const std::vector<std::size_t>& columns, cons
     return found == columns.end() ? columns.front() : *found;
 }
 
+/// How many of the last columns before the first result belong to it: where later results have before them such columns of their
+/// own, an indication with its standard deviation, as many and with the same roles.
+std::size_t columns_of_first_result(const std::vector<LayoutColumn>& columns, const std::vector<std::size_t>& leading,
+                                    const std::vector<std::vector<std::size_t>>& blocks) {
+    std::size_t most = 0;
+    const auto see = [&](const std::vector<std::string>& roles) {
+        const bool has_role = std::any_of(roles.begin(), roles.end(), [](const auto& role) { return !role.empty(); });
+        const auto is_of = [&](const std::string& role, std::size_t i) { return role == columns[i].role; };
+        if (has_role && roles.size() < leading.size() &&
+            std::equal(roles.rbegin(), roles.rend(), leading.rbegin(), is_of)) {
+            most = std::max(most, roles.size());
+        }
+    };
+    for (std::size_t b = 1; b < blocks.size(); ++b) {
+        std::vector<std::string> roles;  // of the columns of points that the block begins with
+        for (std::size_t i = 0; i < blocks[b].size() && columns[blocks[b][i]].result.empty(); ++i) {
+            roles.push_back(columns[blocks[b][i]].role);
+        }
+        see(roles);
+        see({columns[blocks[b].front()].result.empty() ? columns[blocks[b].front()].role : ""});
+    }
+    return most;
+}
+
 /// The columns of each table that what is shown becomes: one, where it fits on a page.
 std::vector<std::vector<std::size_t>> columns_of_parts(const std::vector<LayoutColumn>& columns, const Rows& lines,
                                                        const Wording& words) {
@@ -453,14 +477,11 @@ std::vector<std::vector<std::size_t>> columns_of_parts(const std::vector<LayoutC
     }
     std::vector<std::size_t> leading(first_result);
     std::iota(leading.begin(), leading.end(), std::size_t{0});
-    // Where later results have an indication of their own before them, that of the first one belongs to it, too.
-    const auto has_own = [&](const std::vector<std::size_t>& block) {
-        return columns[block.front()].result.empty() && columns[block.front()].role == columns[leading.back()].role;
-    };
-    while (leading.size() > 1 && !columns[leading.back()].role.empty() && !blocks.empty() &&
-           std::any_of(blocks.begin() + 1, blocks.end(), has_own)) {
-        blocks.front().insert(blocks.front().begin(), leading.back());
-        leading.pop_back();
+    const std::size_t of_first = columns_of_first_result(columns, leading, blocks);
+    const auto first_of_them = leading.end() - static_cast<std::ptrdiff_t>(of_first);
+    if (of_first > 0) {
+        blocks.front().insert(blocks.front().begin(), first_of_them, leading.end());
+        leading.erase(first_of_them, leading.end());
     }
     const std::size_t end_of_leading = leading.size();
     std::vector<std::vector<std::size_t>> parts = {leading};

@@ -2,8 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <string>
+#include <utility>
 #include <vector>
 
+#include "gum/quantity/diagnostic.h"
 #include "tests/support/sample_standard.h"
 
 namespace gumcert::laboratory {
@@ -82,6 +86,43 @@ TEST(RecalibrationTest, TheRecordProposesADay) {
     EXPECT_EQ(next_calibration(record, line)->due, "2026-07-20");  // 250 h in 100 days, 250 h more
     record.interval->readings.clear();
     EXPECT_EQ(next_calibration(record, line)->due, "");
+}
+
+// One plan for a calibrator with lines from 1 V to 1000 V: a limit in ppm is a share of the nominal value, as of a drift.
+TEST(RecalibrationTest, ARelativeLimitIsAShareOfTheNominalValue) {
+    StandardRecord record = test::three_calibrations();
+    record.interval = staircase();
+    CalibrationResult& line = record.calibrations.back().results.front();
+    for (const IntervalMethod method : {IntervalMethod::staircase, IntervalMethod::control_chart}) {
+        record.interval->method = method;
+        for (const double limit : {1.0, 1.9, 2.1, 2.4, 2.6, 5.0, 50.0}) {  // V
+            record.interval->limit = limit;
+            record.interval->unit = "V";
+            const std::string day = next_calibration(record, line)->due;
+            for (const auto& [unit, share] : {std::pair("ppm", 1e-6), std::pair("percent", 1e-2)}) {
+                for (const double nominal : {10.0, -10.0, 1000.0}) {
+                    for (Calibration& calibration : record.calibrations) {
+                        calibration.results.front().nominal = nominal;
+                    }
+                    record.interval->limit = limit / std::abs(nominal) / share;
+                    record.interval->unit = unit;
+                    EXPECT_EQ(next_calibration(record, line)->due, day) << limit << " V, " << unit << " of " << nominal;
+                }
+            }
+        }
+    }
+    const auto refused = [&] {
+        try {
+            static_cast<void>(next_calibration(record, line));
+            return std::string();
+        } catch (const gum::InputError& error) {
+            return error.diagnostics().front().code + " " + error.diagnostics().front().what;
+        }
+    };
+    line.nominal.reset();
+    EXPECT_EQ(refused(), "GC-LAB-0013 a limit in \"percent\" of a line without a nominal value");
+    record.interval->unit = "A";
+    EXPECT_EQ(refused(), "GC-LAB-0013 a limit in \"A\" of a value in \"V\"");
 }
 
 // 10.005 - 10.0042 is 0.0008 in decimal numbers, and more than that in binary ones.

@@ -323,6 +323,18 @@ TEST(BudgetCertificate, EquationsHaveTheDecimalSignOfTheDocument) {
     EXPECT_THAT(dump("en"), HasSubstr("y = max(1.5·a, 0.25) − 1e-5"));
 }
 
+TEST(BudgetCertificate, EquationsHaveRaisedExponentsWhereTheyAreWhole) {
+    EvaluationRecord record = test::sample_budget_record();
+    record.model->equations = {"R = R_0*(1 + A*t + B*t^2 + C*(t - 100)*t**3)", "y = x^-12/z^2.5",
+                               "z = a^2^3 + a^(2) + a^2b", "v = 1e-5^2*w ** 2"};
+    const std::string view =
+        certificate_view(record, Wording(json::parse(read_asset(assets().templates / "wording/en.json")))).dump();
+    EXPECT_THAT(view, HasSubstr("R = R_0·(1 + A·t + B·t² + C·(t − 100)·t³)"));
+    EXPECT_THAT(view, HasSubstr("y = x⁻¹²/z^2.5"));
+    EXPECT_THAT(view, HasSubstr("z = a^2³ + a^(2) + a^2b"));
+    EXPECT_THAT(view, HasSubstr("v = 1e-5²·w ** 2"));
+}
+
 TEST(BudgetCertificate, HtmlAndTextShowTheSameNumbers) {
     for (const auto& [record, rows] : {std::pair(test::sample_budget_record(), k_end_gauge),
                                        std::pair(test::sample_two_results_record(), k_two_results)}) {

@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -119,6 +121,61 @@ TEST(NamesOfValues, StandInTheTableOfVerdicts) {
     EXPECT_THAT(points(), ElementsAre("1,5\u00A0V", "2\u00A0V"));
     certificate.tables[0].layout->shown.push_back({.show = "point", .of = "", .heading = {}, .role = "", .stage = ""});
     EXPECT_THAT(points(), ElementsAre("1", "2"));
+}
+
+/// What the section on conformity says of 24 values: verdict and note of each by its number.
+std::string conformity_of(const std::string& language,
+                          const std::function<std::pair<std::string, std::string>(std::size_t)>& of) {
+    Certificate certificate;
+    std::vector<std::string> settings;
+    for (std::size_t i = 0; i < 24; ++i) {
+        settings.push_back(std::to_string(i));
+    }
+    certificate.tables = {table_of("", 0, settings)};
+    certificate.tables[0].layout->shown.push_back(
+        {.show = "verdict", .of = "E", .heading = {}, .role = "", .stage = ""});
+    certificate::AgreedSpecification& agreed = certificate.data.specifications.emplace_back();
+    agreed.id = "s";
+    agreed.rule.id = "DR-01";
+    for (std::size_t i = 0; i < settings.size(); ++i) {
+        certificate::Verdict& verdict = certificate.tables[0].columns[0].values[i].verdict.emplace();
+        verdict.specification = "s";
+        verdict.rule = "DR-01";
+        std::tie(verdict.verdict, verdict.note) = of(i);
+    }
+    const Wording words(nlohmann::json::parse(read_asset(assets().templates / "wording" / (language + ".json"))));
+    CertificateBuilder builder(words);
+    conformity_section(builder, words, certificate);
+    return builder.take().dump();
+}
+
+// Names of a hundred values tell nobody what the column of verdicts shows.
+TEST(ConformitySentences, NameFewValuesAndTellManyByTheirVerdict) {
+    using testing::AllOf;
+    using testing::HasSubstr;
+    using testing::Not;
+    const std::string a = "Note one.", b = "Note two.";
+    const auto by_verdict = [&](std::size_t i) {
+        return i % 2 == 0 ? std::pair(std::string(i % 4 == 0 ? "pass" : "fail"), a)
+                          : std::pair(std::string("undetermined"), b);
+    };
+    EXPECT_THAT(conformity_of("en", by_verdict),
+                AllOf(HasSubstr("For values with the verdict “pass”, “fail”: Note one."),
+                      HasSubstr("For values with the verdict “undetermined”: Note two.")));
+    EXPECT_THAT(conformity_of("de", by_verdict),
+                HasSubstr("Für Werte mit der Aussage „bestanden“, „nicht bestanden“: Note one."));
+    const auto few = [&](std::size_t i) { return std::pair(std::string("pass"), i % 4 == 1 ? b : a); };
+    EXPECT_THAT(conformity_of("en", few), HasSubstr("For all other values that have a verdict: Note one."));
+    const auto first_ones = [&](std::size_t i) { return std::pair(std::string("pass"), i < 9 ? a : b); };
+    EXPECT_THAT(conformity_of("en", first_ones), AllOf(HasSubstr("to E["), Not(HasSubstr("all other"))))
+        << "few names of many";
+    // What is told of some only is not told of others.
+    const auto some = [&](std::size_t i) { return std::pair(std::string("pass"), i % 2 == 0 ? a : std::string()); };
+    EXPECT_THAT(conformity_of("en", some), AllOf(Not(HasSubstr("all other")), Not(HasSubstr("with the verdict"))));
+    const auto one_without = [&](std::size_t i) {
+        return std::pair(std::string("pass"), i == 3 ? std::string() : i % 2 == 0 ? a : b);
+    };
+    EXPECT_THAT(conformity_of("en", one_without), Not(HasSubstr("all other")));
 }
 
 TEST(NamesOfValues, StandInTheReasonsForMonteCarlo) {

@@ -363,7 +363,8 @@ TEST(PointTableView, AddsNuBesideKWhereTheSentenceSpeaksOfIt) {
 }
 
 /// A table of so many results, each with an indication of its own, U, limits and verdict, and its parts.
-certificate::Certificate table_of_results(std::size_t results, const std::string& number) {
+/// \param scatter  the standard deviation of the readings stands behind each indication: a column without a role
+certificate::Certificate table_of_results(std::size_t results, const std::string& number, bool scatter = false) {
     certificate::Certificate certificate = table_of_points();
     CertifiedTable& table = certificate.tables[0];
     const certificate::PointColumn nominal = table.layout->columns.front();
@@ -384,10 +385,17 @@ certificate::Certificate table_of_results(std::size_t results, const std::string
             v.printed_value = number;
         }
         table.columns.push_back(of);
-        for (const ShownColumn& one : {shown("column", indication.name, "indication"), shown("value", name, "error"),
-                                       shown("U", name), shown("limit", name), shown("verdict", name)}) {
-            table.layout->shown.push_back(one);
+        std::vector<ShownColumn> columns = {shown("column", indication.name, "indication"),
+                                            shown("value", name, "error"), shown("U", name), shown("limit", name),
+                                            shown("verdict", name)};
+        if (scatter) {
+            certificate::PointColumn deviation = indication;
+            deviation.name = "s(" + indication.name + ")";
+            deviation.role = "";
+            table.layout->columns.push_back(deviation);
+            columns.insert(columns.begin() + 1, shown("column", deviation.name));
         }
+        table.layout->shown.insert(table.layout->shown.end(), columns.begin(), columns.end());
     }
     return certificate;
 }
@@ -414,16 +422,19 @@ TEST(PointTableView, ManyResultsBecomeSeveralTablesWithTheSamePoints) {
             for (const std::string number : {"1.0", "10000.0045", "1000000.00045"}) {
                 SCOPED_TRACE(std::string(language) + " " + std::to_string(results) + " " + number);
                 const json tables = tables_in(table_of_results(results, number), language);
-                std::size_t columns = 0;
-                for (const json& table : tables) {
-                    const std::vector<std::string> all = heads_with_units(table);
-                    EXPECT_EQ(all.front(), heads_with_units(tables.at(0)).front()) << "which row it is";
-                    EXPECT_LE(all.size(), 16U);
-                    EXPECT_EQ((all.size() - 1) % 5, 0U) << "the columns of a result stay together";
-                    EXPECT_EQ(table.at("rows").size(), 3U);
-                    columns += all.size() - 1;
+                for (const bool scatter : {false, true}) {
+                    const std::size_t of_each = scatter ? 6 : 5;
+                    std::size_t columns = 0;
+                    for (const json& table : tables_in(table_of_results(results, number, scatter), language)) {
+                        const std::vector<std::string> all = heads_with_units(table);
+                        EXPECT_EQ(all.front(), heads_with_units(tables.at(0)).front()) << "which row it is";
+                        EXPECT_LE(all.size(), 16U);
+                        EXPECT_EQ((all.size() - 1) % of_each, 0U) << "the columns of a result stay together";
+                        EXPECT_EQ(table.at("rows").size(), 3U);
+                        columns += all.size() - 1;
+                    }
+                    EXPECT_EQ(columns, of_each * results) << "none stands twice";
                 }
-                EXPECT_EQ(columns, 5 * results);
                 const std::string caption = tables.at(0).at("caption");
                 EXPECT_EQ(tables.size() > 1, caption.find("error of channel 1") != std::string::npos) << caption;
                 if (results == 1) {
