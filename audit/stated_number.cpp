@@ -131,6 +131,8 @@ private:
     std::size_t at_ = 0;
 };
 
+constexpr std::size_t k_group = 3;  ///< digits that are set apart together
+
 struct Digits {
     std::string plain;  ///< digits with '.', as std::from_chars reads them
     int decimals = 0;
@@ -161,16 +163,46 @@ bool exponent_follows(const Walk& walk) {
     return letter || is_times(next) || (next == U'x' && (walk.peek(ahead + 1) == U' ' || walk.peek(ahead + 1) == U'1'));
 }
 
+/// Whether the last group of decimals stands next, of one or two digits: the "15" of "0.028 15 mm" and not the "10" of
+/// "0.028 10^-3", nor digits with something of their own behind them, "0.028 0.5".
+bool last_decimals_follow(const Walk& walk) {
+    std::size_t end = 1;
+    while (end < k_group && is_digit(walk.peek(end))) {
+        ++end;
+    }
+    if (end == 1) {
+        return false;
+    }
+    const char32_t next = walk.peek(end);
+    const bool ends_sentence = (next == U'.' || next == U',') && !is_digit(walk.peek(end + 1));
+    constexpr std::u32string_view k_may_follow = U" )];:%‰°±(";
+    return next == U'\0' || ends_sentence || k_may_follow.find(next) != std::u32string_view::npos;
+}
+
+/// Whether a blank or apostrophe sets a group of digits apart (SI Brochure, 9th edition, 5.4.4: by three from the decimal
+/// sign): before that sign three digits follow it; behind it three digits stand before it, and one to three follow.
+/// \param run  digits since the decimal sign or the last group, or from the beginning
+bool group_follows(const Walk& walk, bool is_behind_sign, bool is_behind_group, std::size_t run) {
+    if (walk.peek() != U' ' && walk.peek() != U'\'') {
+        return false;
+    }
+    const bool is_whole =
+        is_digit(walk.peek(1)) && is_digit(walk.peek(2)) && is_digit(walk.peek(3)) && !is_digit(walk.peek(4));
+    if (is_behind_sign || is_behind_group) {
+        return run == k_group && (is_whole || (is_behind_sign && last_decimals_follow(walk)));
+    }
+    return run > 0 && run <= k_group && is_whole;
+}
+
 /// The digits of a number. A single separator is the decimal sign, unless three digits follow a comma of which there is
 /// more than one; where both occur, the last one is it.
 std::optional<Digits> take_digits(Walk& walk, DecimalSign sign) {
     std::u32string raw;
-    bool has_groups = false;
+    bool has_groups = false, is_behind_sign = false;
+    std::size_t run = 0;
     while (true) {
         const char32_t code = walk.peek();
-        const bool group = (code == U' ' || code == U'\'') && !raw.empty() && is_digit(raw.back()) &&
-                           is_digit(walk.peek(1)) && is_digit(walk.peek(2)) && is_digit(walk.peek(3)) &&
-                           !is_digit(walk.peek(4));
+        const bool group = group_follows(walk, is_behind_sign, has_groups, run);
         const bool separator = (code == U'.' || code == U',') && (is_digit(walk.peek(1)) || !raw.empty());
         if (!is_digit(code) && !separator && !group) {
             break;
@@ -180,6 +212,8 @@ std::optional<Digits> take_digits(Walk& walk, DecimalSign sign) {
         }
         walk.take();
         has_groups = has_groups || group;
+        is_behind_sign = is_behind_sign || separator;
+        run = group || separator ? 0 : run + 1;
         if (!group) {
             raw += code;
         }
@@ -206,7 +240,6 @@ std::optional<Digits> take_digits(Walk& walk, DecimalSign sign) {
     Digits digits;
     // "1.200" may be 1200. No thousands stand behind a zero, and none are set apart in two ways or before a power of ten.
     const std::size_t separator = raw.find_first_of(U".,");
-    constexpr std::size_t k_group = 3;
     const bool either = decimal != U'\0' && count(U'.') + count(U',') == 1 && separator > 0 && separator <= k_group &&
                         raw.front() != U'0' && raw.size() == separator + 1 + k_group && !has_groups &&
                         !exponent_follows(walk);

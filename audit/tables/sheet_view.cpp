@@ -158,10 +158,11 @@ std::optional<StatedNumber> SheetView::number(const Cell& cell) const {
 
 namespace {
 
-/// Whether behind a number stands what it is multiplied by or divided by, or its power: "2×0.10", "0.20/2", "3^2", "3½". The first
-/// number alone is another one.
+/// Whether behind a number stands what it is multiplied by or divided by, its power, or more digits: "2×0.10", "0.20/2", "3^2", "3½",
+/// "0.0 1523". The first number alone is another one.
 bool goes_on(std::string_view rest) {
-    if (rest.starts_with('^') || rest.starts_with("½")) {
+    const bool is_digit = !rest.empty() && rest.front() >= '0' && rest.front() <= '9';
+    if (is_digit || rest.starts_with('^') || rest.starts_with("½")) {
         return true;
     }
     for (const std::string_view sign : {"×", "·", "*", "∙", "•", "/"}) {

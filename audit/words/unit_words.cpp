@@ -1,6 +1,7 @@
 #include "audit/words/unit_words.h"
 
 #include <algorithm>
+#include <cctype>
 #include <iterator>
 #include <string_view>
 #include <unordered_map>
@@ -219,8 +220,13 @@ std::string unit_in_rest(const std::string& rest) {
     if (first != whole && known_unit(first)) {
         return first;
     }
-    // "HRC" is none that this program knows, and may be one; a sentence is none.
-    return first.find(' ') == std::string::npos ? first : "";
+    // "HRC" is none that this program knows, and may be one; a sentence is none, nor digits and signs alone, "*", "2)".
+    const bool may_be_one = std::any_of(first.begin(), first.end(), [](char c) {
+        constexpr std::string_view k_signs = "%\x22\x27";  // a double or single quote stands for seconds and minutes
+        const auto code = static_cast<unsigned char>(c);
+        return std::isalpha(code) != 0 || code >= 0x80 || k_signs.find(c) != std::string_view::npos;
+    });
+    return may_be_one && first.find(' ') == std::string::npos ? first : "";
 }
 
 bool is_unit_of_part(const std::string& unit) {

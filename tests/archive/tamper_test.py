@@ -470,8 +470,8 @@ def trees_extend_each_other():
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--driver", required=True)
-    parser.add_argument("--stores", type=int, default=40)
-    parser.add_argument("--flips", type=int, default=1000)
+    parser.add_argument("--stores", type=int, default=20)
+    parser.add_argument("--flips", type=int, default=500)
     parser.add_argument("--seed", type=int, default=1)
     options = parser.parse_args()
     rng = random.Random(options.seed)

@@ -48,7 +48,7 @@ EVALUATED = (
 )
 STUDIES = (
     ("plan rotary_table/plan.json", "json html"),
-    ("simulate rotary_table/simulation.json --runs 10", "json html"),
+    ("simulate rotary_table/simulation.json --runs 3", "json html"),
 )
 
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <tuple>
 
 namespace gumcert::audit {
 namespace {
@@ -68,6 +69,62 @@ TEST(StatedNumber, LeavesWhatFollowsANumber) {
     EXPECT_EQ(leading->rest, "\u00B5m, k = 2");
     EXPECT_FALSE(read_leading_number("about 0.36", ""));
     EXPECT_FALSE(read_leading_number(std::string(401, '1'), ""));
+}
+
+/// A number with its digits in groups of three from the decimal sign on, as the SI Brochure, 9th edition, 5.4.4, sets them.
+std::string in_groups(const std::string& whole, const std::string& decimals, char sign, const std::string& group) {
+    std::string all;
+    for (std::size_t i = 0; i < whole.size(); ++i) {
+        all += (i > 0 && (whole.size() - i) % 3 == 0 ? group : "") + whole[i];
+    }
+    all += decimals.empty() ? "" : std::string(1, sign);
+    for (std::size_t i = 0; i < decimals.size(); ++i) {
+        all += (i > 0 && i % 3 == 0 ? group : "") + decimals[i];
+    }
+    return all;
+}
+
+/// The law: however many digits stand before and behind the sign, and whatever sets their groups apart, all of them are read, and what
+/// follows is not.
+TEST(StatedNumber, OfDigitsInGroupsHasAllOfThem) {
+    const std::string digits = "730519264807";
+    for (const std::string& group :
+         {std::string(" "), std::string("\u00A0"), std::string("\u2009"), std::string("\u202F"), std::string("'")}) {
+        for (const char sign : {'.', ','}) {
+            for (std::size_t before = 1; before <= 7; ++before) {
+                for (std::size_t behind = 0; behind <= 8; ++behind) {
+                    const std::string whole = before == 1 ? "0" : digits.substr(0, before);
+                    const std::string decimals = digits.substr(digits.size() - behind);
+                    const double value = std::stod(whole + "." + (decimals.empty() ? "0" : decimals));
+                    const double half_step = behind == 0 ? 0.0 : 0.5 * std::pow(10.0, -static_cast<double>(behind));
+                    for (const std::string& rest :
+                         {std::string(), std::string("mm"), std::string("mm, k = 2"), std::string("\u00D7 10^0 V")}) {
+                        const std::string text =
+                            in_groups(whole, decimals, sign, group) + (rest.empty() ? "" : " " + rest);
+                        const std::optional<LeadingNumber> read = read_leading_number(text, "", Percent::unit);
+                        ASSERT_TRUE(read) << text;
+                        EXPECT_DOUBLE_EQ(read->number.value, value) << text;
+                        const bool has_power = rest.starts_with("\u00D7");
+                        EXPECT_NEAR(read->number.half_step, has_power && behind == 0 ? 0.5 : half_step, 1e-12) << text;
+                        EXPECT_EQ(read->rest, has_power ? "V" : rest) << text;
+                    }
+                }
+            }
+        }
+    }
+}
+
+TEST(StatedNumber, TakesNoDigitsThatAreNotOfIt) {
+    for (const auto& [text, value, rest] :
+         {std::tuple("0.028 0.5", 0.028, "0.5"), std::tuple("0.028 10^-3", 0.028, "10^-3"),
+          std::tuple("0.28 15", 0.28, "15"), std::tuple("0.028 15mm", 0.028, "15mm"), std::tuple("0.5 123", 0.5, "123"),
+          std::tuple("0.028  15", 0.028, "15"), std::tuple("12 15", 12.0, "15"), std::tuple("1234 567", 1234.0, "567"),
+          std::tuple("0.028 15/2", 0.028, "15/2")}) {
+        const std::optional<LeadingNumber> read = read_leading_number(text, "", Percent::unit);
+        ASSERT_TRUE(read) << text;
+        EXPECT_DOUBLE_EQ(read->number.value, value) << text;
+        EXPECT_EQ(read->rest, rest) << text;
+    }
 }
 
 TEST(StatedNumber, IsAnInterval) {

@@ -12,6 +12,7 @@
 #include "gum/monte_carlo/random_draws.h"
 #include "gum/propagation.h"
 #include "gum/quantity/dense_factors.h"
+#include "tests/support/case_count.h"
 #include "tests/unit/gum/budget/made_budgets.h"
 
 namespace gumcert::gum {
@@ -155,7 +156,8 @@ TEST(JointRegion, OfGeneratedMixesCoversWhatItStates) {
         state = state * 1664525U + 1013904223U;
         return static_cast<double>(state >> 16U) / 65536.0 * 4.0 - 2.0;
     };
-    for (int round = 0; round < 8; ++round) {
+    const int rounds = gumcert::test::cases(4, 8);
+    for (int round = 0; round < rounds; ++round) {
         const auto term = [&](const std::string& name) { return test::digits(next()) + "*" + name; };
         Budget of = at_95(test::budget(
             {"y1 = " + term("a") + " + " + term("b"), "y2 = " + term("a") + " + " + term("c") + " + " + term("d"),

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "gum/quantity/diagnostic.h"
+#include "tests/support/case_count.h"
 #include "tests/unit/gum/printed.h"
 
 namespace gumcert::gum {
@@ -111,14 +112,14 @@ MethodComparison methods_that_share(std::mt19937& random, double share, double s
 /// as those of a known correlation (4.5 %), most of them have a verdict, and wrong ones are validated in 5 % of all
 /// comparisons at most. By |E_n| ≤ 1 for the worst correlation alone two of three right comparisons had none.
 TEST(MethodVerdicts, HoldForAnyCorrelationAsOftenAsTheyPromise) {
-    constexpr int k_runs = 80;
+    const int runs = gumcert::test::cases(40, 80);
     for (const double share : {0.0, 0.5, 1.0}) {
         std::mt19937 random(11U + static_cast<unsigned>(10.0 * share));
         int accused = 0;
         int without = 0;
         int validated_too_small = 0;
         int validated_too_large = 0;
-        for (int run = 0; run < k_runs; ++run) {
+        for (int run = 0; run < runs; ++run) {
             const AgreementVerdict right = compare_methods(methods_that_share(random, share, 1.0)).summaries[0].verdict;
             accused += right == AgreementVerdict::disagreement || right == AgreementVerdict::points_above_1 ? 1 : 0;
             without += right == AgreementVerdict::correlation_unknown ? 1 : 0;
@@ -130,10 +131,10 @@ TEST(MethodVerdicts, HoldForAnyCorrelationAsOftenAsTheyPromise) {
             validated_too_large += is_validated(0.5) ? 1 : 0;
         }
         // Four standard deviations of a count above what is promised.
-        EXPECT_LE(accused, 0.055 * k_runs + 4.0 * std::sqrt(0.055 * k_runs)) << share;
-        EXPECT_LE(without, 0.15 * k_runs) << share;
-        EXPECT_LE(validated_too_small, 0.05 * k_runs + 4.0 * std::sqrt(0.05 * k_runs)) << share;
-        EXPECT_LE(validated_too_large, 0.05 * k_runs + 4.0 * std::sqrt(0.05 * k_runs)) << share;
+        EXPECT_LE(accused, 0.055 * runs + 4.0 * std::sqrt(0.055 * runs)) << share;
+        EXPECT_LE(without, 0.15 * runs) << share;
+        EXPECT_LE(validated_too_small, 0.05 * runs + 4.0 * std::sqrt(0.05 * runs)) << share;
+        EXPECT_LE(validated_too_large, 0.05 * runs + 4.0 * std::sqrt(0.05 * runs)) << share;
     }
 }
 

@@ -17,6 +17,7 @@
 #include "reports/record/make/comparison/evaluate_comparison.h"
 #include "reports/record/make/comparison/method_side.h"
 #include "tests/support/budget_campaign.h"
+#include "tests/support/case_count.h"
 #include "tests/support/comparison_campaign.h"
 #include "text/numbers.h"
 
@@ -81,7 +82,8 @@ std::string generated_budget(std::uint64_t seed) {
 
 TEST(ComparedBudget, IsWhatTheBudgetReports) {
     std::size_t by_trials = 0, of_interval = 0, by_convolution = 0, refused = 0, converted = 0;
-    for (std::uint64_t seed = 1; seed <= 120; ++seed) {
+    const std::uint64_t budgets = test::cases(60U, 120U);
+    for (std::uint64_t seed = 1; seed <= budgets; ++seed) {
         const std::string keys = generated_budget(seed);
         SCOPED_TRACE(keys);
         BudgetJob job = read_budget(keys);
@@ -154,10 +156,10 @@ TEST(ComparedBudget, IsWhatTheBudgetReports) {
         }
     }
     // Each way of reporting is among them.
-    EXPECT_GT(by_trials, 10U);
-    EXPECT_GT(of_interval, 5U);
-    EXPECT_GT(by_convolution, 5U);
-    EXPECT_GT(converted, 10U);
+    EXPECT_GT(by_trials, budgets / 12U);
+    EXPECT_GT(of_interval, budgets / 120U);
+    EXPECT_GT(by_convolution, budgets / 24U);
+    EXPECT_GT(converted, budgets / 12U);
     EXPECT_GT(refused, 0U);
 }
 
