@@ -553,7 +553,7 @@ TEST_F(Budget, FourReadingsHaveTheIntervalOfStudent) {
     EXPECT_NEAR(half_width(monte_carlo["symmetric"]), 0.238454, 4.0 * half_width_error(monte_carlo, "symmetric"));
 }
 
-TEST_F(Budget, CorrelatedInputsHaveTheDegreesOfFreedomOfTheEnsembleOrTheLeast) {
+TEST_F(Budget, CorrelatedInputsAreAnEnsembleOrDrawn) {
     const auto with = [](const std::string& nu) {
         return budget("\"y = a + b\"",
                       R"("a": {"value": 1, "u": 0.1, "nu": 5}, "b": {"value": 2, "u": 0.1, "nu": )" + nu + "}",
@@ -566,7 +566,10 @@ TEST_F(Budget, CorrelatedInputsHaveTheDegreesOfFreedomOfTheEnsembleOrTheLeast) {
     const json different = record_of(with("6"));
     const json& y = different["results"]["y"];
     EXPECT_NEAR(y["nu_eff"].get<double>(), 5.0, 1e-12);
-    EXPECT_EQ(y["U"], ensemble["results"]["y"]["U"]);
+    // They are no ensemble: k is that of what Monte Carlo draws. Half-width of 95.45 % of 6 million draws of a Gaussian copula with
+    // rho = 0.5, by another program: 0.4454, and 0.4469 for the correlation 0.5 that they should have.
+    EXPECT_NEAR(y["U"].get<double>(), 0.4469, 0.002);
+    EXPECT_LT(y["U"], ensemble["results"]["y"]["U"]);
     EXPECT_TRUE(tells(different, "GC-BUDGET-0012"));
 }
 

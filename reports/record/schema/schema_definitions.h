@@ -186,7 +186,9 @@ inline constexpr std::tuple k_definitions{
     DefinitionOf<certificate::CertifiedValue>{"certificate_certified_value",
                                               "One value: unrounded numbers, printed texts, scope and verdict."},
     DefinitionOf<certificate::Verdict>{"certificate_verdict",
-                                       "Decision on conformity, with everything needed to check it by hand."},
+                                       "Decision on conformity, with everything needed to check it by hand. Where "
+                                       "printed.conformance_probability is empty, no probability is stated: "
+                                       "conformance_probability and specific_risk are 0 then, and mean nothing."},
     DefinitionOf<certificate::Finding>{"certificate_finding",
                                        "Something that an assessor would remark; critical ones block the issue."},
     DefinitionOf<certificate::Change>{"certificate_change",
